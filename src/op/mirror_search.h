@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "op/pass.h"
 #include "op/screen_ray.h"
 
@@ -16,6 +18,8 @@ namespace limpid {
 struct MirrorSteps {
   int steps;
   double thin, thick;
+  /// Whether objects are as thick as they are narrow, and rays may meet what something else hides.
+  bool guesses = false;
 };
 
 /// The share of a march's length at a step, of `count` steps.
@@ -57,8 +61,9 @@ template <class F, class Tap>
 class MirrorSearch {
  public:
   struct Found {
-    F distance;  ///< distance along the ray, +inf where it meets no surface
-    F hit;       ///< 1 or 0
+    F distance;     ///< distance along the ray, +inf where it meets no surface
+    F hit;          ///< 1 or 0
+    Vec2<F> shift;  ///< the place that shows the surface; 0 without one
   };
 
   /// `accept(shift, depth)`: whether the ray may hit this visible surface. `thicker`:
@@ -76,8 +81,7 @@ class MirrorSearch {
     const auto is_behind = [&](F t, F depth) {
       return t * gain >= (depth - ray.depth) * (F(1) - t * bend);
     };
-    const auto seen_at = [&](F t) {
-      const Vec2<F> shift = t * end;
+    const auto seen_at = [&](Vec2<F> shift) {
       const F seen = min(tap.nearest(plane, shift), F(1e30));
       return select(accept(shift, seen), seen, F(1e30));
     };
@@ -94,35 +98,50 @@ class MirrorSearch {
       return is_behind(t, seen) && !is_behind(max(t - pixel, F(0)), back_of(seen)) &&
              seen < F(1e29);
     };
+    const auto guesses = F(how.guesses ? 1 : 0) > F(0.5);
+    // The same for an object that may be thinner than that.
+    const auto meets_at = [&](F t, F seen, const auto& asked) {
+      const F back = back_of(seen), whole = back - seen, nearer = max(t - pixel, F(0));
+      auto meets = asked && within(t, seen);
+      const auto doubtful = guesses && meets && is_behind(nearer, seen + F(kNarrowest) * whole);
+      if_any(doubtful, [&] {
+        const F thick = thickness_of(c, tap, plane, t * end, seen, whole);
+        meets = meets && !(doubtful && is_behind(nearer, seen + thick));
+      });
+      return meets;
+    };
     // The share at which `hits` changes, between two shares of the length.
     const auto edge = [&](F low, F high, auto&& hits) {
       repeat<F>(kHalvings, [&] {
         const F t = F(0.5) * (low + high);
-        const auto hit = hits(t, seen_at(t));
+        const auto hit = hits(t, seen_at(t * end));
         high = select(hit, t, high);
         low = select(hit, low, t);
       });
       return high;
     };
     const auto share_of = [&](auto step) { return share_of_step<F>(step, how.steps); };
-    // Whether all steps after `begin` up to `last_one` need no lookup: all surfaces there are
-    // farther away than the ray, or so near that the ray has passed them. Where the ray is far away
-    // 1 - t bend is a small difference, with the rounding error of 1.
-    const auto passes = [&](int begin, int last_one, auto&& open) {
-      const F a = share_of(begin), b = share_of(last_one), before = max(a - pixel, F(0));
-      const auto depth_at = [&](F t, double off) {
-        return ray.depth + t * gain / max(F(1 + off) - t * bend, F(1e-30));
-      };
-      const F first = depth_at(before, -1e-6), second = depth_at(before, 1e-6);
-      const F third = depth_at(b, -1e-6), fourth = depth_at(b, 1e-6);
-      const F low = min(min(first, second), min(third, fourth));
-      const F high = max(max(first, second), max(third, fourth));
-      const SeenRange seen = tap.range(plane, open, a * end, b * end);
-      if (seen.low > greatest(select(open, F(1 + 1e-5) * high, F(-HUGE_VAL)))) return true;
-      const F back = back_of(F(seen.high));
-      return !any(open && !(F(1 - 1e-5) * low > back));
-    };
     F before = F(0), met = F(0), found = F(0), last = F(0), last_nearest = F(1e30);
+    // Whether the ray is behind something that it has not met, and the last step before that.
+    F hidden = F(0), clear = F(0);
+    // Whether something nearer borders on the place that shows the surface, which may lie off the
+    // ray.
+    F borders = F(0);
+    Vec2<F> off{F(0), F(0)};
+    // Whether all steps after `begin` up to `last_one` need no lookup: all surfaces there are
+    // farther away than the ray. Where the ray is far away 1 - t bend is a small difference, with
+    // the rounding error of 1.
+    const auto passes = [&](int begin, int last_one, auto&& open) {
+      if (any(open && hidden > F(0.5))) return false;
+      const F a = share_of(begin), b = share_of(last_one);
+      const auto depth_at = [&](F t, double rounding) {
+        return ray.depth + t * gain / max(F(1 + rounding) - t * bend, F(1e-30));
+      };
+      const F high = max(max(depth_at(a, -1e-6), depth_at(a, 1e-6)),
+                         max(depth_at(b, -1e-6), depth_at(b, 1e-6)));
+      return tap.range(plane, open, a * end, b * end).low >
+             greatest(select(open, F(1 + 1e-5) * high, F(-HUGE_VAL)));
+    };
     Leaps leaps(how.steps);
     const auto leap = [&](int i) {
       return leaps.from(i, [&](int begin, int last_one) {
@@ -143,10 +162,11 @@ class MirrorSearch {
       const auto leaves =
           is_behind(t, last_nearest) && !is_behind(last, last_nearest) && last_nearest < F(1e29);
       const auto open = lanes && found < F(0.5) && (enters || leaves);
+      F blocked(0);
       if_any(open, [&] {
         const F seen = select(accept(shift, nearest), nearest, F(1e30));
         const auto behind = is_behind(t, seen);
-        const auto hit = open && within(t, seen);
+        const auto hit = meets_at(t, seen, open);
         // A long step may lead through a whole object, or behind an object and out again past its
         // edge.
         const auto through =
@@ -156,11 +176,14 @@ class MirrorSearch {
         before = select(hit, last, before);
         found = select(hit, F(1), found);
         const auto leads = through || past_edge;
+        // A surface that the ray crossed behind something else, like a wall behind a pole.
+        const auto emerges = guesses && open && !hit && behind && hidden > F(0.5) &&
+                             !is_behind(clear, seen) && seen < F(1e29);
         if_any(leads, [&] {
           F low = last, high = t, front = seen;
           repeat<F>(kHalvings, [&] {
-            const F middle = F(0.5) * (low + high), there = seen_at(middle);
-            const auto in = is_behind(middle, there);
+            const F middle = F(0.5) * (low + high), there = seen_at(middle * end);
+            const auto in = is_behind(middle, there) && !is_behind(last, back_of(there));
             // Beyond the edge is what the ray has not yet passed at the end of the step.
             const auto beyond = past_edge && !in && !is_behind(t, there) && !is_behind(high, front);
             const auto back = in || beyond;
@@ -168,23 +191,128 @@ class MirrorSearch {
             low = select(back, low, middle);
             front = select(back, there, front);
           });
-          const auto meets = leads && within(high, front);
+          const auto meets = meets_at(high, front, leads);
           met = select(meets, high, met);
           before = select(meets, low, before);
           found = select(meets, F(1), found);
         });
+        const auto crossed = emerges && found < F(0.5);
+        if_any(crossed, [&] {
+          F low = last, high = t;
+          repeat<F>(kHalvings, [&] {
+            const F middle = F(0.5) * (low + high), there = seen_at(middle * end);
+            const auto in = is_behind(middle, there) && !is_behind(clear, there) && there < F(1e29);
+            high = select(in, middle, high);
+            low = select(in, low, middle);
+          });
+          met = select(crossed, high, met);
+          before = select(crossed, high, before);
+          found = select(crossed, F(1), found);
+          borders = select(crossed, F(1), borders);
+        });
+        blocked = select(behind && seen < F(1e29), F(1), F(0));
       });
+      clear = select(blocked > F(0.5) && hidden < F(0.5), last, clear);
+      hidden = blocked;
       last = t;
       last_nearest = nearest;
       return lanes && found < F(0.5);
     };
     if_any(lanes, [&] { steps<F>(1, how.steps + 1, leap, step); });
     if_any(found > F(0.5), [&] { met = edge(before, met, within); });
-    return {select(found > F(0.5), ray.at_share(met, most), F(HUGE_VAL)), found};
+    // A ray that has been behind something narrow, like a pole, up to its end has met the surface
+    // that the picture shows beside the pole where the ray is as deep.
+    const auto lost = guesses && lanes && found < F(0.5) && hidden > F(0.5);
+    if_any(lost, [&] {
+      const F least = back_of(last_nearest);
+      F share = clear, surface(0);
+      Vec2<F> aside{F(0), F(0)};
+      const auto look = [&] {
+        aside = beside(c, tap, plane, share * end, is_upright(c, end), least);
+        surface = min(tap.nearest(plane, share * end + aside), F(1e30));
+      };
+      look();
+      // Behind something wide nothing is known.
+      steps<F>(0, kGuesses, [&](auto) {
+        const auto narrow = lost && surface > least;
+        if_any(narrow, [&] {
+          const F ahead = surface - ray.depth;
+          const F there = max(min(ahead / max(gain + ahead * bend, F(1e-30)), last), clear);
+          share = select(narrow, there, share);
+          look();
+        });
+        return narrow;
+      });
+      surface = seen_at(share * end + aside);
+      const auto meets = lost && surface > least && surface < F(1e29) && is_behind(last, surface) &&
+                         !is_behind(clear, surface);
+      met = select(meets, share, met);
+      off = select(meets, aside, off);
+      found = select(meets, F(1), found);
+      borders = select(meets, F(1), borders);
+    });
+    const auto hit = found > F(0.5);
+    const Vec2<F> place = met * end + off;
+    const Vec2<F> shown = select(borders > F(0.5), to_texel(c, place), place);
+    return {select(hit, ray.at_share(met, most), F(HUGE_VAL)), found,
+            select(hit, shown, Vec2<F>{F(0), F(0)})};
   }
 
  private:
-  static constexpr int kHalvings = 5;
+  static constexpr int kHalvings = 5, kWidths = 4, kPole = 5, kGuesses = 3;
+  static constexpr double kNarrowest = 0.125, kSky = 1e6, kPicture = 640;
+
+  /// The thickness of an object that is seen at a shift: `whole`, or as much as the object is
+  /// narrow, to the left and right or upwards and downwards.
+  static F thickness_of(const WaterView& c, const Tap& tap, PlaneId plane, Vec2<F> at, F seen,
+                        F whole) {
+    const F pixel = given<F>(glm::length(c.rays.origin_dx), "camera.pixel_at_eye") +
+                    seen * given<F>(glm::length(c.rays.ray_dx), "camera.pixel_per_depth");
+    const F none(0), back = seen + whole;
+    const F x = given<F>(1.0 / c.size.x, "camera.column") / pixel;
+    const F y = given<F>(1.0 / c.size.y, "camera.row") / pixel;
+    F left = whole, right = whole, above = whole, below = whole;  // from there to the object's ends
+    F apart = F(0.5 * kNarrowest) * whole;
+    repeat<F>(kWidths, [&] {
+      const auto look = [&](F to_right, F down, F& end) {
+        const F beyond = tap.nearest(plane, at + Vec2<F>{apart * to_right, apart * down});
+        end = select(end >= whole && beyond > back, F(0.75) * apart, end);
+      };
+      look(F(0) - x, none, left), look(x, none, right);
+      look(none, F(0) - y, above), look(none, y, below);
+      apart = F(2) * apart;
+    });
+    return min(whole, min(left + right, above + below));
+  }
+
+  /// From a place that something narrow hides to the nearest texel at a side of it, if farther
+  /// surfaces are seen at both sides; else 0. `upright`: whether the sides are left and right.
+  template <class Mask>
+  static Vec2<F> beside(const WaterView& c, const Tap& tap, PlaneId plane, Vec2<F> at,
+                        const Mask& upright, F least) {
+    // Pixels, of large pictures several.
+    const double unit = std::max(std::max(c.size.x, c.size.y) / kPicture, 1.0);
+    const F across = given<F>(unit / c.size.x, "camera.unit", 0);
+    const F down = given<F>(unit / c.size.y, "camera.unit", 1);
+    const auto aside = [&](F units) {
+      return Vec2<F>{select(upright, units * across, F(0)), select(upright, F(0), units * down)};
+    };
+    F after(0), before(0), units(1);  // to the sides, 0 until they are found
+    steps<F>(0, kPole, [&](auto) {
+      units = F(2) * units;
+      const auto look = [&](F there, F& side) {
+        const F seen = tap.nearest(plane, at + aside(there));
+        side =
+            select(abs(side) <= F(0) && seen > least, select(seen < F(1e29), there, F(kSky)), side);
+      };
+      look(units, after), look(F(0) - units, before);
+      return abs(after) <= F(0) || abs(before) <= F(0);
+    });
+    const auto narrow =
+        abs(after) > F(0) && abs(before) > F(0) && max(after, abs(before)) < F(kSky);
+    const F nearest = select(after > F(0) - before, before, after);
+    return select(narrow, aside(nearest), Vec2<F>{F(0), F(0)});
+  }
 };
 
 }  // namespace limpid

@@ -66,6 +66,13 @@ LIMPID_INLINE F height_at(const WaterView& c, const Pixel<F>& p, Vec2<F> shift, 
   return given<F>(c.eye_above) + there_over + min(depth, F(1e30)) * there_under;
 }
 
+/// The shift to the centre of the texel at `shift`, where bilinear filtering mixes nothing in.
+template <class F>
+LIMPID_INLINE Vec2<F> to_texel(const WaterView& c, Vec2<F> shift) {
+  const auto whole = [](F part, F count) { return floor(part * count + F(0.5)) / count; };
+  return {whole(shift.x, given<F>(c.size.x)), whole(shift.y, given<F>(c.size.y))};
+}
+
 /// The gain of the view ray, per unit of eye depth, from the pixel to `shift`.
 template <class F>
 LIMPID_INLINE Vec3<F> ray_gain(const WaterView& c, Vec2<F> shift) {
@@ -85,6 +92,12 @@ LIMPID_INLINE Vec3<F> offset_to(const WaterView& c, const Pixel<F>& p, Vec2<F> s
   return (p.ray_length * (p.surface_depth - far)) * p.to_viewer + origin + far * ray_gain(c, shift);
 }
 
+/// Whether `across` mainly leads up or down the picture.
+template <class F>
+LIMPID_INLINE auto is_upright(const WaterView& c, Vec2<F> across) {
+  return given<F>(c.size.x) * abs(across.x) < given<F>(c.size.y) * abs(across.y);
+}
+
 /// Number of times that `across` fits between uv and the edge to which it leads. A ray along the
 /// edge does not stop because of rounding over the outermost texel.
 template <class F>
@@ -101,7 +114,7 @@ LIMPID_INLINE F reach_in(const Bounds& b, Vec2<F> uv, Vec2<F> across) {
 /// the side to which it leans. Lookups beyond that side take the texels at the edge.
 template <class F>
 LIMPID_INLINE F reach_ahead(const WaterView& c, const Bounds& b, Vec2<F> uv, Vec2<F> across) {
-  const auto upright = given<F>(c.size.x) * abs(across.x) < given<F>(c.size.y) * abs(across.y);
+  const auto upright = is_upright(c, across);
   return reach_in(b, uv, Vec2<F>{select(upright, F(0), across.x), select(upright, across.y, F(0))});
 }
 

@@ -8,12 +8,13 @@ namespace limpid {
 
 /// Sine of the elevation of the skyline, as seen from a pixel's surface point: of all objects above
 /// the calm water that a depth plane shows along `ray` on screen and on the side of `ahead`, the
-/// highest one counts; 0 without objects. `ray` goes up, so that on screen it leads beyond the
-/// horizon. The results of lanes other than `lanes` are undefined.
+/// highest one counts; 0 without objects. `goes_on`: an object at the edge of the picture is as
+/// high as can be. `ray` goes up, so that on screen it leads beyond the horizon. The results of
+/// lanes other than `lanes` are undefined.
 template <class F, class Tap, class Mask>
 F skyline(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
           const Bounds& bounds, const Pixel<F>& p, const ScreenRay<F>& ray, Vec3<F> ahead,
-          int count) {
+          int count, bool goes_on) {
   const Vec2<F> end = ray.shift_at(ray.s_at(reach_ahead(c, bounds, p.uv, ray.across)));
   const auto sine_at = [&](F t) {
     const Vec2<F> shift = t * end;
@@ -55,7 +56,7 @@ F skyline(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
     after = select(higher, after, t);
     at = select(higher, t, at);
   });
-  return sine;
+  return goes_on ? select(at >= F(1), F(1), sine) : sine;
 }
 
 }  // namespace limpid

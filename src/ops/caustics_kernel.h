@@ -263,9 +263,8 @@ struct Kernel<Caustics> : Caustics {
     };
     const Vec2<F> low{given<F>(c.dry.low.x) - p.uv.x, given<F>(c.dry.low.y) - p.uv.y};
     const Vec2<F> high{given<F>(c.dry.high.x) - p.uv.x, given<F>(c.dry.high.y) - p.uv.y};
-    const auto centre = [](F shift, F count) { return floor(shift * count + F(0.5)) / count; };
-    const Vec2<F> at{centre(min(max(p.shift.x, low.x), high.x), given<F>(c.size.x)),
-                     centre(min(max(p.shift.y, low.y), high.y), given<F>(c.size.y))};
+    const Vec2<F> at = to_texel(
+        c, Vec2<F>{min(max(p.shift.x, low.x), high.x), min(max(p.shift.y, low.y), high.y)});
     const F depth = depth_at(at);
     const Vec3<F> ray = ray_gain(c, at) - p.ray_length * p.to_viewer;
     F steps(0);  // of depth, from one texel to the next, as a share of it

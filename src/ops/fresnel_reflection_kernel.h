@@ -275,9 +275,9 @@ struct Kernel<FresnelReflection> : MirroredLight {
                                Vec3<F> near, F level, F deviation) {
     const Vec3<F> up = vec3_of<F>(c.up), ray = mirrored_ray(c, p, bent(c, p, p.normal));
     const Vec3<F> ahead = normalize_or(ray - dot(up, ray) * up, F(-1) * near);
-    const F sine =
-        skyline(c, tap, lanes, PlaneId::kDepth, c.dry, p, ScreenRay<F>(c, p, ahead + up), ahead,
-                reads_planes(params, c) ? kImageSteps.steps : kPictureSteps.steps);
+    const F sine = skyline(c, tap, lanes, PlaneId::kDepth, c.dry, p, ScreenRay<F>(c, p, ahead + up),
+                           ahead, reads_planes(params, c) ? kImageSteps.steps : kPictureSteps.steps,
+                           !reads_planes(params, c));
     const F rise = max(dot(up, p.normal), F(1e-6)), eye = dot(up, p.to_viewer);
     // From the mean facet to the one half way between the view and a ray that rises so far.
     const auto lean_to = [&](F s) {

@@ -160,6 +160,13 @@ struct MirroredLight : FresnelReflection {
                          light, albedo, detail);
   }
 
+  /// The place of the picture next to `shift`.
+  template <class F>
+  static LIMPID_INLINE Vec2<F> next_to(const Pass& c, const Pixel<F>& p, Vec2<F> shift) {
+    return {min(max(shift.x, given<F>(c.dry.low.x) - p.uv.x), given<F>(c.dry.high.x) - p.uv.x),
+            min(max(shift.y, given<F>(c.dry.low.y) - p.uv.y), given<F>(c.dry.high.y) - p.uv.y)};
+  }
+
   /// The dry picture along a ray that is mirrored down in the water. Where the ray meets no visible
   /// surface, the level of the surface visible next to its end continues.
   template <class F, class Tap>
@@ -171,23 +178,16 @@ struct MirroredLight : FresnelReflection {
     const F top = given<F>(c.eye_above) + dot(up, p.surface_point);
     const F fall = max(F(0) - dot(up, direction), F(0.02));
     const auto unseen = !(met < F(1e20));
-    // The place of the picture next to the ray's.
-    const auto next_to = [&](F s) {
-      const Vec2<F> at = ray.shift_at(s);
-      return Vec2<F>{
-          min(max(at.x, given<F>(c.dry.low.x) - p.uv.x), given<F>(c.dry.high.x) - p.uv.x),
-          min(max(at.y, given<F>(c.dry.low.y) - p.uv.y), given<F>(c.dry.high.y) - p.uv.y)};
-    };
     F distance = met;
     if_any(unseen, [&] {
       repeat<F>(kGuesses, [&] {
-        const Vec2<F> at = next_to(distance);
+        const Vec2<F> at = next_to(c, p, ray.shift_at(distance));
         const F depth = tap.nearest(PlaneId::kDepth, at);
         const F drop = top - height_at(c, p, at, depth);
         distance = select(unseen && drop > F(0) && depth < F(1e30), drop / fall, distance);
       });
     });
-    const Vec2<F> at = next_to(distance);
+    const Vec2<F> at = next_to(c, p, ray.shift_at(distance));
     const Rgb<F> shown = through_water(c, p, tap, direction, distance,
                                        bilinear_rgb<F>(tap, PlaneId::kColorR, at), at);
     const auto ends = distance < F(1e20);
@@ -274,7 +274,7 @@ struct MirroredLight : FresnelReflection {
           MirrorSearch<F, Tap>::march(c, tap, tap.wet() && meets, PlaneId::kReflectionDepth,
                                       c.reflection, p, ray, kImageSteps, ahead);
       hit = select(meets, part * found.hit, hit);
-      met = select(found.hit > F(0.5), place_at(c, p, ray, found.distance), met);
+      met = found.shift;
     });
     const auto whole = hit >= F(1), parted = hit > F(0) && !whole;
     const ScreenRay<F> own = image_ray(c, p, n);
@@ -395,8 +395,8 @@ struct MirroredLight : FresnelReflection {
   static constexpr double kLacks = 0.3;  ///< share of the planes' texels
   /// Share of the depth of a pixel's water; less than 1 because depths of surfaces are rounded.
   static constexpr double kAhead = 0.99;
-  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05}, kPictureSteps{48, 0.06, 0.03},
-      kLostSteps{8, 0.06, 0.03};
+  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05, false},
+      kPictureSteps{48, 0.06, 0.03, true}, kLostSteps{8, 0.06, 0.03, false};
 
   /// What a mirrored ray meets in the dry picture.
   template <class F>
@@ -415,9 +415,7 @@ struct MirroredLight : FresnelReflection {
     };
     const auto found = MirrorSearch<F, Tap>::march(c, tap, lanes, PlaneId::kDepth, c.dry, p, ray,
                                                    how, on_side, thicker);
-    const Vec2<F> shift =
-        select(found.hit > F(0.5), ray.shift_at(found.distance), Vec2<F>{F(0), F(0)});
-    return {bilinear_rgb<F>(tap, PlaneId::kColorR, shift), found.hit, found.distance};
+    return {bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift), found.hit, found.distance};
   }
 
   /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest: of
@@ -427,9 +425,10 @@ struct MirroredLight : FresnelReflection {
                                      const Tap& tap, Vec3<F> n, F part, Vec3<F> low,
                                      F thicker = F(1)) {
     const ScreenRay<F> own(c, p, mirrored_ray(c, p, n));
-    const Rgb<F> beyond = far_away(params, c, p, tap, n, own);
+    const Rgb<F> far = far_away(params, c, p, tap, n, own);
+    const Mirrored<F> beyond = goes_on(c, p, tap, own, {far, from_far<F>()});
     const auto below = p.side < F(0);
-    Rgb<F> light = beyond;
+    Mirrored<F> all = beyond;
     F hit(0), distance(HUGE_VAL);
     const auto meets = part > F(0);
     if_any(meets, [&] {
@@ -437,16 +436,59 @@ struct MirroredLight : FresnelReflection {
           met_in_picture(c, p, tap, low, tap.wet() && meets, kPictureSteps, thicker);
       hit = select(meets, part * there.hit, hit);
       distance = select(meets, there.distance, distance);
-      light = select(meets, beyond + hit * (there.light - beyond), light);
+      all.light = select(meets, beyond.light + hit * (there.light - beyond.light), all.light);
+      all.sources =
+          select(meets, beyond.sources + hit * (from_picture<F>() - beyond.sources), all.sources);
     });
-    Mirrored<F> all{light, {F(0), hit, F(1) - hit}};
     if (c.submersible) {
       if_any(below, [&] {
-        const Mirrored<F> under = seen_below(c, p, tap, n, own, distance, beyond);
+        const Mirrored<F> under = seen_below(c, p, tap, n, own, distance, far);
         all = {select(below, under.light, all.light), select(below, under.sources, all.sources)};
       });
     }
     return all;
+  }
+
+  /// What lies beyond the picture: the surface that the picture shows at its edge goes on there, if
+  /// the ray leaves the picture before it, as far as it is wide to both sides. The texels of the
+  /// edge next to the ray show where the ray meets it.
+  template <class F, class Tap>
+  static Mirrored<F> goes_on(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                             const ScreenRay<F>& ray, Mirrored<F> beyond) {
+    constexpr int kGuesses = 2;
+    const F leaves = ray.s_at(reach_ahead(c, c.dry, p.uv, ray.across));
+    const auto off = tap.wet() && p.side > F(0) && leaves < F(1e20) && ray.depth_step > F(0);
+    if_any(off, [&] {
+      const F edge = ray.depth_at(leaves);
+      F distance = leaves, seen(0);
+      Vec2<F> at = next_to(c, p, ray.shift_at(leaves));
+      const auto stands = [&](Vec2<F> there) {
+        seen = tap.nearest(PlaneId::kDepth, there);
+        return seen > edge && seen < F(1e30) && height_at(c, p, there, seen) > F(0);
+      };
+      auto meets = off && stands(at);
+      repeat<F>(kGuesses, [&] {
+        distance = max((seen - ray.depth) / max(ray.depth_step, F(1e-6)), leaves);
+        at = next_to(c, p, ray.shift_at(distance));
+        meets = meets && stands(at);
+      });
+      if_any(meets, [&] {
+        const Vec2<F> apart = ray.shift_at(distance) - at;
+        const F width = given<F>(c.size.x), height = given<F>(c.size.y);
+        const auto upright = is_upright(c, ray.across);
+        const Vec2<F> aside{select(upright, abs(apart.y) * height / width, F(0)),
+                            select(upright, F(0), abs(apart.x) * width / height)};
+        for (const double share : {-1.0, -0.5, 0.5, 1.0}) {
+          const Vec2<F> beside = next_to(c, p, at + F(share) * aside);
+          meets = meets && tap.nearest(PlaneId::kDepth, beside) < F(1e30);
+        }
+        const Rgb<F> shown{tap.nearest(PlaneId::kColorR, at), tap.nearest(PlaneId::kColorG, at),
+                           tap.nearest(PlaneId::kColorB, at)};
+        beyond = {select(meets, shown, beyond.light),
+                  select(meets, from_picture<F>(), beyond.sources)};
+      });
+    });
+    return beyond;
   }
 
   /// The surroundings of the frame, or else of the look.

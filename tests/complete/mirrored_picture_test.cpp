@@ -1,0 +1,166 @@
+#include <cmath>
+
+#include "complete/mirror.h"
+
+// What the picture shows of mirrored rays that leave it, or that pass behind something in it.
+
+namespace limpid {
+namespace {
+
+using test::kInf;
+using test::kInside;
+using test::kSky;
+using test::kWall;
+using test::Ridge;
+
+/// A wall without a reflection, and a pole before it, mirrored by facets that lean to the side,
+/// too.
+struct Poles : Ridge {
+  glm::dvec3 normal;
+  double pole;     ///< distance
+  int begin, end;  ///< columns of the pole
+
+  Poles(double top_of_wall, glm::dvec2 slope, double distance, int first, int last)
+      : Ridge(top_of_wall, 0),
+        normal(glm::normalize(glm::dvec3(slope.x, 1, slope.y))),
+        pole(distance),
+        begin(first),
+        end(last) {
+    for (const PlaneId id : {PlaneId::kReflectionR, PlaneId::kReflectionG, PlaneId::kReflectionB,
+                             PlaneId::kReflectionDepth}) {
+      buffers.frame.planes[index_of(id)] = {};
+    }
+    buffers.set(PlaneId::kDepth, [&](int x, int y) {
+      return is_pole(x, y) ? static_cast<float>(pole) : depth(x, y);
+    });
+    for (int c = 0; c < 3; ++c) {
+      buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+        if (is_pole(x, y)) return kInside;
+        return depth(x, y) == kInf ? kSky : 2 + far * ray(x, y).y > 0 ? kWall : 1.0f;
+      });
+      buffers.fill(plane_after(PlaneId::kSurfaceNormalX, c), static_cast<float>(normal[c]));
+    }
+  }
+  bool is_pole(int x, int y) const { return x >= begin && x < end && 2 + pole * ray(x, y).y > 0; }
+  /// Of the picture, at a distance of 1.
+  double width() const { return kWide.width * (ray(1, 0) - ray(0, 0)).x; }
+  /// Distance of the water that a pixel shows, +inf if none.
+  double water(int x, int y) const {
+    const double at = ray(x, y).y < 0 ? -2 / ray(x, y).y : HUGE_VAL;
+    return at < far - 0.5 && !(is_pole(x, y) && at > pole) ? at : HUGE_VAL;
+  }
+  /// The place of the mirrored ray of a pixel at a distance from the eye.
+  glm::dvec3 mirrored_at(int x, int y, double distance) const {
+    const glm::dvec3 view = ray(x, y), up = view - 2 * glm::dot(view, normal) * normal;
+    const double from = -2 / view.y;
+    return from * view + glm::dvec3(0, 2, 0) + (distance - from) / -up.z * up;
+  }
+  double column_of(const glm::dvec3& at) const {
+    return kWide.width * (0.5 + at.x / -at.z / width());
+  }
+  /// Calls check(x, y, both pictures' colors) for each pixel of the water.
+  template <class Check>
+  void each(const Check& check) const {
+    const test::Picture exact = test::reference(look, buffers.frame, scene);
+    const test::Picture fused = test::fused(look, buffers.frame, scene);
+    int differ = 0;
+    for (int y = 0; y < kWide.height; ++y) {
+      for (int x = 0; x < kWide.width; ++x) {
+        if (!(water(x, y) < HUGE_VAL)) continue;
+        check(x, y, float(exact.color(x, y).r));
+        differ += std::abs(fused.color(x, y).r - exact.color(x, y).r) > 1e-3;
+      }
+    }
+    EXPECT_LE(differ, 10);  // roundings decide what a ray along an edge meets
+  }
+};
+
+// A wall that the picture's upper edge cuts goes on above it.
+TEST(MirroredPicture, GoesOnBeyondItsEdge) {
+  int beyond = 0;
+  const Poles wall(1000, {0, 0.3}, 15, 0, 0);
+  wall.each([&](int x, int y, float color) {
+    EXPECT_EQ(color, kWall) << x << ", " << y;
+    beyond += wall.mirrored_at(x, y, wall.far).y > 2 + wall.far * wall.ray(x, 0).y;
+  });
+  EXPECT_GT(beyond, 1000);
+}
+
+// Something narrow goes on only as far as it is wide, like a tree whose top the edge cuts.
+TEST(MirroredPicture, GoesOnAsFarAsItIsWide) {
+  Poles tower(-1, {0, 0.2}, 19, 140, 180);  // no wall but that
+  tower.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    return tower.is_pole(x, y) ? 19.0f : tower.ray(x, y).y < 0 ? tower.depth(x, y) : kInf;
+  });
+  int seen = 0, skies = 0;
+  const int x = 160;
+  const double edge = 2 + 19 * tower.ray(x, 0).y,
+               pixel = 19 * (tower.ray(x, 0) - tower.ray(x, 1)).y;
+  tower.each([&](int column, int y, float color) {
+    if (column != x) return;
+    const double over = (tower.mirrored_at(x, y, 19).y - edge) / pixel;
+    if (over > 2 && over < 15) {
+      EXPECT_EQ(color, kInside) << y;
+      ++seen;
+    }
+    if (over > 25) {
+      EXPECT_EQ(color, kSky) << y;
+      ++skies;
+    }
+  });
+  EXPECT_GT(seen, 2);
+  EXPECT_GT(skies, 10);
+}
+
+// A ray that passes behind a pole has met the wall there, not the sky: also if it comes out on the
+// other side, and if it leaves the picture behind the pole.
+TEST(MirroredPicture, MeetsTheWallBehindAPole) {
+  for (const double top : {3.0, 1000.0}) {
+    int behind = 0;
+    for (const double aside : {0.02, 0.05, 0.1, 0.2}) {
+      const Poles poles(top, {aside, 0.02}, 8, 150, 170);
+      poles.each([&](int x, int y, float color) {
+        const glm::dvec3 at = poles.mirrored_at(x, y, poles.far);
+        const double column = poles.column_of(at);
+        const auto near = [&](double edge) { return std::abs(column - edge) < 2; };
+        if (poles.water(x, y) < 9 || at.y < 0.3 || std::abs(at.y - top) < 0.3) return;
+        // A ray that begins right beside the pole and comes out before the sky is not found.
+        if (near(150) || near(170) || (top < 4 && x > 147 && x < 150)) return;
+        EXPECT_EQ(color, at.y < top ? kWall : kSky)
+            << top << ", " << aside << ", " << x << ", " << y;
+        behind += column > 150 && column < 170;
+      });
+    }
+    EXPECT_GT(behind, 20) << top;
+  }
+}
+
+// A pole is as thick as it is narrow: rays that pass farther behind it do not meet it.
+TEST(MirroredPicture, APoleIsAsThickAsItIsNarrow) {
+  const Poles poles(1000, {0.3, 0.02}, 10, 158, 162);
+  int met = 0, passed = 0;
+  poles.each([&](int x, int y, float color) {
+    if (poles.water(x, y) > 9 || poles.mirrored_at(x, y, poles.far).y < 0.3) return;
+    const double pixel = poles.width() * 10 / Poles::kWide.width;
+    const auto column = [&](double distance) {
+      return poles.column_of(poles.mirrored_at(x, y, distance));
+    };
+    const double front = column(10), back = column(10 + 6 * pixel);
+    if (front > 159 && front < 161) {
+      EXPECT_EQ(color, kInside) << x << ", " << y;
+      ++met;
+    }
+    const double before = std::min(front, back), after = std::max(front, back);
+    const double wall = column(poles.far);
+    if (std::abs(wall - 160) < 3) return;  // texels beside the pole are mixed with it
+    if (after < 157 || before > 163) {
+      EXPECT_EQ(color, kWall) << x << ", " << y;
+      ++passed;
+    }
+  });
+  EXPECT_GT(met, 50);
+  EXPECT_GT(passed, 1000);
+}
+
+}  // namespace
+}  // namespace limpid
