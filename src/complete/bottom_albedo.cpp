@@ -13,11 +13,13 @@
 namespace limpid {
 namespace {
 
-constexpr int kCell = 8;  ///< pixels along a cell of a picture up to 1.5 times as wide as this:
-constexpr double kWide = 1920;  ///< larger pictures have no more cells than a picture so wide
-constexpr int kSamples = 4;     ///< along a cell: enough for sums
-constexpr float kDepths = 1;    ///< distance to which sums reach on each side, in depths of water
-constexpr int kMaxReach = 24;   ///< cells
+/// Pixels along a cell of a picture up to 1.5 times as wide as kWide: twice as many of one up
+/// to 2.5 times as wide, and so on.
+constexpr int kCell = 8;
+constexpr double kWide = 1920;
+constexpr int kSamples = 4;    ///< along a cell: enough for sums
+constexpr float kDepths = 1;   ///< distance to which sums reach on each side, in depths of water
+constexpr int kMaxReach = 24;  ///< cells
 
 Rect window_of(const Frame& frame) {
   Rect window = frame.work();

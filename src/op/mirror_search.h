@@ -18,7 +18,8 @@ namespace limpid {
 struct MirrorSteps {
   int steps;
   double thin, thick;
-  /// Whether objects are as thick as they are narrow, and rays may meet what something else hides.
+  /// Whether, from above the water, objects are as thick as they are narrow, and rays may meet what
+  /// something else hides.
   bool guesses = false;
 };
 
@@ -98,7 +99,7 @@ class MirrorSearch {
       return is_behind(t, seen) && !is_behind(max(t - pixel, F(0)), back_of(seen)) &&
              seen < F(1e29);
     };
-    const auto guesses = F(how.guesses ? 1 : 0) > F(0.5);
+    const auto guesses = F(how.guesses ? 1 : 0) > F(0.5) && p.side > F(0);
     // The same for an object that may be thinner than that.
     const auto meets_at = [&](F t, F seen, const auto& asked) {
       const F back = back_of(seen), whole = back - seen, nearer = max(t - pixel, F(0));
@@ -124,6 +125,7 @@ class MirrorSearch {
     F before = F(0), met = F(0), found = F(0), last = F(0), last_nearest = F(1e30);
     // Whether the ray is behind something that it has not met, and the last step before that.
     F hidden = F(0), clear = F(0);
+    F covers = F(0);  // the greatest depth of the back of what hides it
     // Whether something nearer borders on the place that shows the surface, which may lie off the
     // ray.
     F borders = F(0);
@@ -132,7 +134,7 @@ class MirrorSearch {
     // farther away than the ray. Where the ray is far away 1 - t bend is a small difference, with
     // the rounding error of 1.
     const auto passes = [&](int begin, int last_one, auto&& open) {
-      if (any(open && hidden > F(0.5))) return false;
+      if (how.guesses && any(open && hidden > F(0.5))) return false;
       const F a = share_of(begin), b = share_of(last_one);
       const auto depth_at = [&](F t, double rounding) {
         return ray.depth + t * gain / max(F(1 + rounding) - t * bend, F(1e-30));
@@ -178,7 +180,7 @@ class MirrorSearch {
         const auto leads = through || past_edge;
         // A surface that the ray crossed behind something else, like a wall behind a pole.
         const auto emerges = guesses && open && !hit && behind && hidden > F(0.5) &&
-                             !is_behind(clear, seen) && seen < F(1e29);
+                             seen > covers && !is_behind(clear, seen) && seen < F(1e29);
         if_any(leads, [&] {
           F low = last, high = t, front = seen;
           repeat<F>(kHalvings, [&] {
@@ -211,6 +213,8 @@ class MirrorSearch {
           borders = select(crossed, F(1), borders);
         });
         blocked = select(behind && seen < F(1e29), F(1), F(0));
+        const F before_it = select(hidden > F(0.5), covers, F(0));
+        covers = select(blocked > F(0.5), max(before_it, back_of(seen)), covers);
       });
       clear = select(blocked > F(0.5) && hidden < F(0.5), last, clear);
       hidden = blocked;
@@ -224,17 +228,16 @@ class MirrorSearch {
     // that the picture shows beside the pole where the ray is as deep.
     const auto lost = guesses && lanes && found < F(0.5) && hidden > F(0.5);
     if_any(lost, [&] {
-      const F least = back_of(last_nearest);
       F share = clear, surface(0);
       Vec2<F> aside{F(0), F(0)};
       const auto look = [&] {
-        aside = beside(c, tap, plane, share * end, is_upright(c, end), least);
+        aside = beside(c, tap, plane, share * end, is_upright(c, end), covers);
         surface = min(tap.nearest(plane, share * end + aside), F(1e30));
       };
       look();
       // Behind something wide nothing is known.
       steps<F>(0, kGuesses, [&](auto) {
-        const auto narrow = lost && surface > least;
+        const auto narrow = lost && surface > covers;
         if_any(narrow, [&] {
           const F ahead = surface - ray.depth;
           const F there = max(min(ahead / max(gain + ahead * bend, F(1e-30)), last), clear);
@@ -244,7 +247,8 @@ class MirrorSearch {
         return narrow;
       });
       surface = seen_at(share * end + aside);
-      const auto meets = lost && surface > least && surface < F(1e29) && is_behind(last, surface) &&
+      const auto meets = lost && abs(aside.x) + abs(aside.y) > F(0) && surface > covers &&
+                         surface < F(1e29) && is_behind(last, surface) &&
                          !is_behind(clear, surface);
       met = select(meets, share, met);
       off = select(meets, aside, off);
@@ -266,11 +270,16 @@ class MirrorSearch {
   /// narrow, to the left and right or upwards and downwards.
   static F thickness_of(const WaterView& c, const Tap& tap, PlaneId plane, Vec2<F> at, F seen,
                         F whole) {
-    const F pixel = given<F>(glm::length(c.rays.origin_dx), "camera.pixel_at_eye") +
-                    seen * given<F>(glm::length(c.rays.ray_dx), "camera.pixel_per_depth");
+    const auto per_length = [&](int size, const char* shift, const glm::dvec3& at_eye,
+                                const char* eye, const glm::dvec3& per_depth, const char* depth) {
+      return given<F>(1.0 / size, shift) /
+             (given<F>(glm::length(at_eye), eye) + seen * given<F>(glm::length(per_depth), depth));
+    };
+    const F x = per_length(c.size.x, "camera.column", c.rays.origin_dx, "camera.column_at_eye",
+                           c.rays.ray_dx, "camera.column_per_depth");
+    const F y = per_length(c.size.y, "camera.row", c.rays.origin_dy, "camera.row_at_eye",
+                           c.rays.ray_dy, "camera.row_per_depth");
     const F none(0), back = seen + whole;
-    const F x = given<F>(1.0 / c.size.x, "camera.column") / pixel;
-    const F y = given<F>(1.0 / c.size.y, "camera.row") / pixel;
     F left = whole, right = whole, above = whole, below = whole;  // from there to the object's ends
     F apart = F(0.5 * kNarrowest) * whole;
     repeat<F>(kWidths, [&] {
@@ -285,8 +294,9 @@ class MirrorSearch {
     return min(whole, min(left + right, above + below));
   }
 
-  /// From a place that something narrow hides to the nearest texel at a side of it, if farther
-  /// surfaces are seen at both sides; else 0. `upright`: whether the sides are left and right.
+  /// From a place that something narrow hides to the nearer side of it, if surfaces farther away
+  /// than `least` are seen at both sides, at a distance of 2, 4 ... 32 units; else 0. `upright`:
+  /// whether the sides are left and right.
   template <class Mask>
   static Vec2<F> beside(const WaterView& c, const Tap& tap, PlaneId plane, Vec2<F> at,
                         const Mask& upright, F least) {

@@ -15,7 +15,8 @@ template <class F, class Tap, class Mask>
 F skyline(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
           const Bounds& bounds, const Pixel<F>& p, const ScreenRay<F>& ray, Vec3<F> ahead,
           int count, bool goes_on) {
-  const Vec2<F> end = ray.shift_at(ray.s_at(reach_ahead(c, bounds, p.uv, ray.across)));
+  const F leaves = ray.s_at(reach_ahead(c, bounds, p.uv, ray.across));
+  const Vec2<F> end = ray.shift_at(leaves);
   const auto sine_at = [&](F t) {
     const Vec2<F> shift = t * end;
     const F seen = min(tap.nearest(plane, shift), F(1e30));
@@ -56,7 +57,7 @@ F skyline(const WaterView& c, const Tap& tap, const Mask& lanes, PlaneId plane,
     after = select(higher, after, t);
     at = select(higher, t, at);
   });
-  return goes_on ? select(at >= F(1), F(1), sine) : sine;
+  return goes_on ? select(at >= F(1) && leaves < F(1e20), F(1), sine) : sine;
 }
 
 }  // namespace limpid

@@ -450,8 +450,8 @@ struct MirroredLight : FresnelReflection {
   }
 
   /// What lies beyond the picture: the surface that the picture shows at its edge goes on there, if
-  /// the ray leaves the picture before it, as far as it is wide to both sides. The texels of the
-  /// edge next to the ray show where the ray meets it.
+  /// the ray leaves the picture before it, as far as no sky is seen to both sides. The texels of
+  /// the edge next to the ray show where the ray meets it.
   template <class F, class Tap>
   static Mirrored<F> goes_on(const Pass& c, const Pixel<F>& p, const Tap& tap,
                              const ScreenRay<F>& ray, Mirrored<F> beyond) {
