@@ -71,7 +71,8 @@ struct Poles : Ridge {
         differ += std::abs(fused.color(x, y).r - exact.color(x, y).r) > 1e-3;
       }
     }
-    EXPECT_LE(differ, 10);  // roundings decide what a ray along an edge meets
+    // Roundings decide what a ray along an edge meets: one of a thousand pixels may.
+    EXPECT_LE(differ, kWide.width * kWide.height / 2000);
   }
 };
 
