@@ -129,15 +129,15 @@ class MirrorSearch {
     // Whether something nearer borders on the place that shows the surface, which may lie off the
     // ray.
     F borders = F(0);
-    Vec2<F> off{F(0), F(0)};
+    Vec2<F> to_side{F(0), F(0)};
     // Whether all steps after `begin` up to `last_one` need no lookup: all surfaces there are
     // farther away than the ray. Where the ray is far away 1 - t bend is a small difference, with
     // the rounding error of 1.
     const auto passes = [&](int begin, int last_one, auto&& open) {
       if (how.guesses && any(open && hidden > F(0.5))) return false;
       const F a = share_of(begin), b = share_of(last_one);
-      const auto depth_at = [&](F t, double rounding) {
-        return ray.depth + t * gain / max(F(1 + rounding) - t * bend, F(1e-30));
+      const auto depth_at = [&](F t, double off) {
+        return ray.depth + t * gain / max(F(1 + off) - t * bend, F(1e-30));
       };
       const F high = max(max(depth_at(a, -1e-6), depth_at(a, 1e-6)),
                          max(depth_at(b, -1e-6), depth_at(b, 1e-6)));
@@ -251,19 +251,20 @@ class MirrorSearch {
                          surface < F(1e29) && is_behind(last, surface) &&
                          !is_behind(clear, surface);
       met = select(meets, share, met);
-      off = select(meets, aside, off);
+      to_side = select(meets, aside, to_side);
       found = select(meets, F(1), found);
       borders = select(meets, F(1), borders);
     });
     const auto hit = found > F(0.5);
-    const Vec2<F> place = met * end + off;
+    const Vec2<F> place = met * end + to_side;
     const Vec2<F> shown = select(borders > F(0.5), to_texel(c, place), place);
     return {select(hit, ray.at_share(met, most), F(HUGE_VAL)), found,
             select(hit, shown, Vec2<F>{F(0), F(0)})};
   }
 
  private:
-  static constexpr int kHalvings = 5, kWidths = 4, kPole = 5, kGuesses = 3;
+  static constexpr int kHalvings = 5;
+  static constexpr int kWidths = 4, kPole = 5, kGuesses = 3;
   static constexpr double kNarrowest = 0.125, kSky = 1e6, kPicture = 640;
 
   /// The thickness of an object that is seen at a shift: `whole`, or as much as the object is

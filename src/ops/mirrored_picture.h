@@ -1,0 +1,252 @@
+#pragma once
+#include "limpid/ops/fresnel_reflection.h"
+
+#include "op/bilinear.h"
+#include "op/mirror_search.h"
+#include "op/operator.h"
+#include "op/screen_ray.h"
+#include "op/water_medium.h"
+#include "optics/refract.h"
+#include "optics/surroundings.h"
+
+/// @file
+/// The light that a facet of the surface mirrors from the dry picture, the surroundings or a
+/// constant: what is there without reflection planes.
+
+namespace limpid {
+
+struct MirroredPicture : FresnelReflection {
+  /// Light, and its source: Pixel::mirror_sources.
+  template <class F>
+  struct Mirrored {
+    Rgb<F> light, sources;
+  };
+  template <class F>
+  static LIMPID_INLINE Rgb<F> from_reflection() {
+    return {F(1), F(0), F(0)};
+  }
+  template <class F>
+  static LIMPID_INLINE Rgb<F> from_picture() {
+    return {F(0), F(1), F(0)};
+  }
+  template <class F>
+  static LIMPID_INLINE Rgb<F> from_far() {
+    return {F(0), F(0), F(1)};
+  }
+
+  template <class F>
+  static LIMPID_INLINE Rgb<F> constant(const Params& params) {
+    return {given<F>(params.color.r), given<F>(params.color.g), given<F>(params.color.b)};
+  }
+
+  /// The mirrored ray, unit, on the viewer's side of the surface.
+  template <class F>
+  static LIMPID_INLINE Vec3<F> mirrored_ray(const Pass& c, const Pixel<F>& p, Vec3<F> n) {
+    const Vec3<F> up = vec3_of<F>(c.up), ray = mirror(p.to_viewer, n);
+    return c.submersible ? lifted(ray, select(p.side < F(0), F(-1) * up, up)) : lifted(ray, up);
+  }
+
+  template <class F, class Tap>
+  static LIMPID_INLINE Rgb<F> surroundings(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                           Vec3<F> n) {
+    const Vec3<F> ray = mirrored_ray(c, p, n);
+    const Rgb<F> far = tap.lat_long_rgb(
+        c.environment, lat_long(dot(vec3_of<F>(c.map_x), ray), dot(vec3_of<F>(c.map_y), ray),
+                                dot(vec3_of<F>(c.up), ray)));
+    return through_water<false>(c, p, tap, ray, F(HUGE_VAL), far, {F(0), F(0)});
+  }
+
+  // --- seen from within the water ---------------------------------------------------------------
+
+  /// The light that the underside of the surface mirrors, after its path of length `distance`
+  /// through the water to the surface: for pixels seen from within the water. `distance` may be
+  /// infinite. `kEnds`: whether the path ends at a surface, whose albedo lies at the shift `at`.
+  template <bool kEnds = true, class F, class Tap>
+  static LIMPID_INLINE Rgb<F> through_water(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                            const Vec3<F>& ray, F distance, Rgb<F> light,
+                                            Vec2<F> at) {
+    if (!c.medium) return light;
+    const auto below = p.side < F(0);
+    if_any(below, [&] {
+      light = select(
+          below,
+          through_water_below<kEnds>(c, p, tap, ray, select(below, distance, F(0)), light, at),
+          light);
+    });
+    return light;
+  }
+  template <bool kEnds, class F, class Tap>
+  [[gnu::noinline]] static Rgb<F> through_water_below(const Pass& c, const Pixel<F>& p,
+                                                      const Tap& tap, const Vec3<F>& ray,
+                                                      F distance, Rgb<F> light, Vec2<F> at) {
+    const Vec3<F> up = vec3_of<F>(c.up);
+    const F height = given<F>(c.eye_above) + dot(up, p.surface_point);
+    const F begin = max(F(0) - height, F(0)), sink = max(F(0) - dot(up, ray), F(0));
+    const F length = min(distance, F(3e38));
+    Rgb<F> albedo{F(0), F(0), F(0)}, detail{F(1), F(1), F(1)};
+    if (kEnds && c.medium->multiple && c.planes.covers(kAlbedoPlanes)) {
+      albedo = bilinear_rgb<F>(tap, PlaneId::kAlbedoR, at);
+      if (c.planes.has(PlaneId::kShadow)) {
+        // The shadow is that of the path's end if the picture shows that. Along grazing rays depth
+        // changes much from one texel to the next.
+        const F end = min(ScreenRay<F>(c, p, ray).depth_at(distance), F(1e30));
+        const F off = abs(bilinear_depth<F>(tap, PlaneId::kDepth, tap.quad(at)) - end);
+        const F known = saturate(F(2) - off / (F(0.1) * max(end, F(1e-6))));
+        const F lit = bilinear<F>(tap, PlaneId::kShadow, at);
+        const Rgb<F> dry = bilinear_rgb<F>(tap, PlaneId::kColorR, at);  // `light` may be focused
+        detail = {albedo_detail(*c.medium, 0, dry.r, lit, albedo.r, known),
+                  albedo_detail(*c.medium, 1, dry.g, lit, albedo.g, known),
+                  albedo_detail(*c.medium, 2, dry.b, lit, albedo.b, known)};
+      }
+    }
+    return seen_in_water(*c.medium, WaterPath<F>{length, sink, begin, begin + sink * length}, ray,
+                         light, albedo, detail);
+  }
+
+  /// The place of the picture next to `shift`.
+  template <class F>
+  static LIMPID_INLINE Vec2<F> next_to(const Pass& c, const Pixel<F>& p, Vec2<F> shift) {
+    return {min(max(shift.x, given<F>(c.dry.low.x) - p.uv.x), given<F>(c.dry.high.x) - p.uv.x),
+            min(max(shift.y, given<F>(c.dry.low.y) - p.uv.y), given<F>(c.dry.high.y) - p.uv.y)};
+  }
+
+  /// The dry picture along a ray that is mirrored down in the water. Where the ray meets no visible
+  /// surface, the level of the surface visible next to its end continues.
+  template <class F, class Tap>
+  [[gnu::noinline]] static Mirrored<F> seen_below(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                                  Vec3<F> n, const ScreenRay<F>& ray, F met,
+                                                  Rgb<F> beyond) {
+    constexpr int kGuesses = 3;
+    const Vec3<F> up = vec3_of<F>(c.up), direction = mirrored_ray(c, p, n);
+    const F top = given<F>(c.eye_above) + dot(up, p.surface_point);
+    const F fall = max(F(0) - dot(up, direction), F(0.02));
+    const auto unseen = !(met < F(1e20));
+    F distance = met;
+    if_any(unseen, [&] {
+      repeat<F>(kGuesses, [&] {
+        const Vec2<F> at = next_to(c, p, ray.shift_at(distance));
+        const F depth = tap.nearest(PlaneId::kDepth, at);
+        const F drop = top - height_at(c, p, at, depth);
+        distance = select(unseen && drop > F(0) && depth < F(1e30), drop / fall, distance);
+      });
+    });
+    const Vec2<F> at = next_to(c, p, ray.shift_at(distance));
+    const Rgb<F> shown = through_water(c, p, tap, direction, distance,
+                                       bilinear_rgb<F>(tap, PlaneId::kColorR, at), at);
+    const auto ends = distance < F(1e20);
+    return {select(ends, shown, beyond),
+            {F(0), select(ends, F(1), F(0)), select(ends, F(0), F(1))}};
+  }
+
+  // --- the dry picture ---------------------------------------------------------------------------
+
+  static constexpr MirrorSteps kPictureSteps{48, 0.06, 0.03, true},
+      kLostSteps{8, 0.06, 0.03, false};
+
+  /// What a mirrored ray meets in the dry picture.
+  template <class F>
+  struct InPicture {
+    Rgb<F> light;
+    F hit, distance;  ///< 1 or 0; +inf where it meets nothing
+  };
+  template <class F, class Tap, class Mask>
+  static InPicture<F> met_in_picture(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                                     const Mask& lanes, const MirrorSteps& how, F thicker = F(1)) {
+    const ScreenRay<F> ray(c, p, mirrored_ray(c, p, n));
+    const auto below = p.side < F(0);
+    const auto on_side = [&](Vec2<F> shift, F depth) {
+      const F height = height_at(c, p, shift, depth);
+      return (c.submersible ? select(below, F(0) - height, height) : height) > F(0);
+    };
+    const auto found = MirrorSearch<F, Tap>::march(c, tap, lanes, PlaneId::kDepth, c.dry, p, ray,
+                                                   how, on_side, thicker);
+    return {bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift), found.hit, found.distance};
+  }
+
+  /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest: of
+  /// the facets n those beyond the share `part`, whose ray is that of the facet `low`.
+  template <class F, class Tap>
+  static Mirrored<F> seen_in_picture(const Params& params, const Pass& c, const Pixel<F>& p,
+                                     const Tap& tap, Vec3<F> n, F part, Vec3<F> low,
+                                     F thicker = F(1)) {
+    const ScreenRay<F> own(c, p, mirrored_ray(c, p, n));
+    const Rgb<F> far = far_away(params, c, p, tap, n, own);
+    const auto below = p.side < F(0);
+    Mirrored<F> all{far, from_far<F>()};
+    F distance(HUGE_VAL);
+    InPicture<F> there{far, F(0), distance};
+    const auto meets = part > F(0);
+    if_any(meets, [&] {
+      there = met_in_picture(c, p, tap, low, tap.wet() && meets, kPictureSteps, thicker);
+      distance = select(meets, there.distance, distance);
+    });
+    const F hit = select(meets, part * there.hit, F(0));
+    const auto misses = hit < F(1);
+    if_any(misses, [&] { all = goes_on(c, p, tap, own, misses, all); });
+    all.light = select(meets, all.light + hit * (there.light - all.light), all.light);
+    all.sources = select(meets, all.sources + hit * (from_picture<F>() - all.sources), all.sources);
+    if (c.submersible) {
+      if_any(below, [&] {
+        const Mirrored<F> under = seen_below(c, p, tap, n, own, distance, far);
+        all = {select(below, under.light, all.light), select(below, under.sources, all.sources)};
+      });
+    }
+    return all;
+  }
+
+  /// What lies beyond the picture, for `lanes`: the surface that the picture shows at its edge goes
+  /// on there, if the ray leaves the picture before it, as far as no sky is seen to both sides. The
+  /// texels of the edge next to the ray show where the ray meets it.
+  template <class F, class Tap, class Mask>
+  static Mirrored<F> goes_on(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                             const ScreenRay<F>& ray, const Mask& lanes, Mirrored<F> beyond) {
+    constexpr int kGuesses = 2;
+    const F leaves = ray.s_at(reach_ahead(c, c.dry, p.uv, ray.across));
+    const auto off =
+        lanes && tap.wet() && p.side > F(0) && leaves < F(1e20) && ray.depth_step > F(0);
+    if_any(off, [&] {
+      const F edge = ray.depth_at(leaves);
+      F distance = leaves, seen(0);
+      Vec2<F> at = next_to(c, p, ray.shift_at(leaves));
+      const auto stands = [&](Vec2<F> there) {
+        seen = tap.nearest(PlaneId::kDepth, there);
+        return seen > edge && seen < F(1e30) && height_at(c, p, there, seen) > F(0);
+      };
+      auto meets = off && stands(at);
+      repeat<F>(kGuesses, [&] {
+        distance = max((seen - ray.depth) / max(ray.depth_step, F(1e-6)), leaves);
+        at = next_to(c, p, ray.shift_at(distance));
+        meets = meets && stands(at);
+      });
+      if_any(meets, [&] {
+        const Vec2<F> apart = ray.shift_at(distance) - at;
+        const F width = given<F>(c.size.x), height = given<F>(c.size.y);
+        const auto upright = is_upright(c, ray.across);
+        const Vec2<F> aside{select(upright, abs(apart.y) * height / width, F(0)),
+                            select(upright, F(0), abs(apart.x) * width / height)};
+        for (const double share : {-1.0, -0.5, 0.5, 1.0}) {
+          const Vec2<F> beside = next_to(c, p, at + F(share) * aside);
+          meets = meets && tap.nearest(PlaneId::kDepth, beside) < F(1e30);
+        }
+        const Rgb<F> shown{tap.nearest(PlaneId::kColorR, at), tap.nearest(PlaneId::kColorG, at),
+                           tap.nearest(PlaneId::kColorB, at)};
+        beyond = {select(meets, shown, beyond.light),
+                  select(meets, from_picture<F>(), beyond.sources)};
+      });
+    });
+    return beyond;
+  }
+
+  /// The surroundings of the frame, or else of the look.
+  template <class F, class Tap>
+  static Rgb<F> far_away(const Params& params, const Pass& c, const Pixel<F>& p, const Tap& tap,
+                         Vec3<F> n, const ScreenRay<F>& ray) {
+    if (c.environment) return surroundings(c, p, tap, n);
+    const Rgb<F> far = c.planes.covers(kSkyPlanes)
+                           ? bilinear_rgb<F>(tap, PlaneId::kSkyR, ray.shift_at(F(HUGE_VAL)))
+                           : constant<F>(params);
+    return through_water<false>(c, p, tap, mirrored_ray(c, p, n), F(HUGE_VAL), far, {F(0), F(0)});
+  }
+};
+
+}  // namespace limpid
