@@ -55,7 +55,7 @@ class BottomAlbedo {
     kCount,
     kReach
   };
-  using Cell = std::array<float, 16>;
+  using Cell = std::array<float, 16>;  ///< one more, for whole vectors
   void gather(const Frame& frame, const Pass& pass, const Rgb<double>& sky, int row);
   void look_for_walls(const Frame& frame, const Pass& pass, const WaterOver& water, int row);
   int reach() const;

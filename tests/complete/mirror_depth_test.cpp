@@ -182,5 +182,37 @@ TEST(MirrorDepth, ThreadsDoNotMatter) {
   }
 }
 
+// Threads complete bands of rows, which begin at the upper edge of the reflection.
+TEST(MirrorDepth, BandsDoNotMatter) {
+  // So few points that holes remain after the first closing.
+  const auto noise = [](int x, int y) {
+    if (y < 24) return test::noise(x, y, 3) < 0.1f ? 4 + 30 * test::noise(x, y, 1) : kInf;
+    return 3 + test::noise(x, y, 2);
+  };
+  Shore whole;
+  whole.buffers.set(PlaneId::kDepth, noise);
+  const auto executor = make_executor(2);
+  const MirrorDepth& all = whole.made(*executor);
+  for (const int begin : {1, 14, 15, 16, 17, 44}) {
+    Shore part;
+    part.buffers.set(PlaneId::kDepth, noise);
+    Frame& frame = part.buffers.frame;
+    for (int c = 0; c < 3; ++c) {
+      View<const float>& view = frame.planes[index_of(plane_after(PlaneId::kReflectionR, c))];
+      view.data += begin * view.y_stride, view.window.y0 = begin;
+    }
+    const Pass pass(part.scene, frame, 1.333, kWholeState);
+    MirrorDepth cut;
+    cut.make(frame, pass, *executor);
+    // Two rows at the edge of the reflection have fewer neighbours.
+    for (int y = begin + 2; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        EXPECT_EQ(cut.depth().view().at(x, y), all.depth().view().at(x, y)) << begin << ", " << y;
+        EXPECT_EQ(cut.valid().view().at(x, y), all.valid().view().at(x, y)) << begin << ", " << y;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace limpid
