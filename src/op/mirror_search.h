@@ -18,8 +18,8 @@ namespace limpid {
 struct MirrorSteps {
   int steps;
   double thin, thick;
-  /// Whether, from above the water, objects are as thick as they are narrow, and rays may meet what
-  /// something else hides.
+  /// Whether, from above the water, objects are as thick as they are narrow, and rays may meet
+  /// surfaces that other objects hide.
   bool guesses = false;
 };
 
@@ -125,7 +125,7 @@ class MirrorSearch {
     F before = F(0), met = F(0), found = F(0), last = F(0), last_nearest = F(1e30);
     // Whether the ray is behind something that it has not met, and the last step before that.
     F hidden = F(0), clear = F(0);
-    F covers = F(0);  // the greatest depth of the back of what hides it
+    F covers = F(0);  // the greatest depth of the backs of the objects that hide it
     // Whether something nearer borders on the place that shows the surface, which may lie off the
     // ray.
     F borders = F(0);

@@ -5,8 +5,9 @@
 #include "ops/mirrored_picture.h"
 
 /// @file
-/// The light that a facet of the surface mirrors: from the reflection planes, or what
-/// ops/mirrored_picture.h has. ops/fresnel_reflection_kernel.h chooses the facets and blends it.
+/// The light that a facet of the surface mirrors: from the reflection planes, or from
+/// the sources of ops/mirrored_picture.h. ops/fresnel_reflection_kernel.h chooses the facets and
+/// blends it.
 
 namespace limpid {
 

@@ -11,7 +11,7 @@
 
 /// @file
 /// The light that a facet of the surface mirrors from the dry picture, the surroundings or a
-/// constant: what is there without reflection planes.
+/// constant, where there are no reflection planes.
 
 namespace limpid {
 
@@ -194,9 +194,9 @@ struct MirroredPicture : FresnelReflection {
     return all;
   }
 
-  /// What lies beyond the picture, for `lanes`: the surface that the picture shows at its edge goes
-  /// on there, if the ray leaves the picture before it, as far as no sky is seen to both sides. The
-  /// texels of the edge next to the ray show where the ray meets it.
+  /// The light from beyond the picture, for `lanes`: the surface that the picture shows at its edge
+  /// goes on there, if the ray leaves the picture before it, as far as no sky is seen to both
+  /// sides. The texels of the edge next to the ray show where the ray meets it.
   template <class F, class Tap, class Mask>
   static Mirrored<F> goes_on(const Pass& c, const Pixel<F>& p, const Tap& tap,
                              const ScreenRay<F>& ray, const Mask& lanes, Mirrored<F> beyond) {
