@@ -215,6 +215,16 @@ void warn_of_scale(const Plan& plan, const Frame& frame, const Pass& c,
   }
 }
 
+void warn_of_waves(const Plan& plan, const Scene& scene, std::vector<std::string>& warnings) {
+  const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
+  const bool from_map =
+      waves.model != WaveNormals::Model::kPlate && waves.model != WaveNormals::Model::kSines;
+  if (!scene.has_waves() || !from_map || !plan.made.has(StatePart::kNormal)) return;
+  warnings.push_back(
+      "the waves of the scene change nothing: the waves are those of wave_normals.map; expected "
+      "wave_normals.model = sines, with strength = 1 for the scene's heights");
+}
+
 /// Entry points of sunlight for the visible bottom under calm water: the share of them beyond the
 /// frame's own normals, if these are the only source of waves.
 void warn_of_light(const Plan& plan, const Frame& frame, const Pass& c,
@@ -292,6 +302,7 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
   warn_of_sun(plan, frame, pass, warnings);
   warn_of_glint(plan, frame, pass, warnings);
   warn_of_scale(plan, frame, pass, warnings);
+  warn_of_waves(plan, scene, warnings);
   warn_of_light(plan, frame, pass, warnings);
   warn_of_slopes(plan, frame, warnings);
   warn_of_sky(plan, frame, pass, warnings);

@@ -42,7 +42,8 @@ struct Evening {
   }
   std::vector<std::string> warnings() const {
     std::vector<std::string> sentences;
-    const Plan plan = make_plan(look, {.planes = buffers.frame.present(), .sun = true});
+    const Plan plan =
+        make_plan(look, {.planes = buffers.frame.present(), .wave_map = true, .sun = true});
     warn_of_picture(plan, buffers.frame, scene, sentences);
     return sentences;
   }
@@ -118,6 +119,21 @@ TEST(PictureWarnings, WavesOverTheCamera) {
   EXPECT_THAT(evening.warnings(), IsEmpty());
   evening.look.of<WaveNormals>().waves.push_back({1.5, 0, 0.1, 0, 0});
   EXPECT_THAT(evening.warnings(), testing::Contains(HasSubstr("the waves reach 3")));
+}
+
+TEST(PictureWarnings, WavesOfTheSceneBesideAMap) {
+  Evening evening;
+  const auto unread = testing::Contains(HasSubstr("the waves of the scene change nothing"));
+  WaveNormals::Params& waves = evening.look.of<WaveNormals>();
+  evening.scene.water->waves = {{0.01, 3, 0, 0, 0}};
+  EXPECT_THAT(evening.warnings(), testing::Not(unread));
+  waves.model = WaveNormals::Model::kSlopes;
+  EXPECT_THAT(evening.warnings(), unread);
+  waves.strength = 0;  // calm water was asked for
+  EXPECT_THAT(evening.warnings(), testing::Not(unread));
+  waves.strength = 1;
+  evening.scene.water->waves.clear();
+  EXPECT_THAT(evening.warnings(), testing::Not(unread));
 }
 
 /// An orthographic camera that looks straight down on 64 x 48 of calm water, with normals in the

@@ -63,8 +63,11 @@ fs::path file_of(std::string_view name, Folders folders, const fs::path& from) {
     if (fs::exists(file, absent)) return file;
   }
   const std::vector<std::string> known = look_names(folders);
+  std::vector<std::string> searched;
+  for (const fs::path& folder : folders) searched.push_back(folder.string());
+  const std::string empty = searched.empty() ? "" : ", or looks in one of " + join(searched);
   throw Error("no look is named '" + path.string() + "': expected " +
-              (known.empty() ? "the path of a look file" : "one of " + join(known)) +
+              (known.empty() ? "the path of a look file" + empty : "one of " + join(known)) +
               did_you_mean(name, known));
 }
 

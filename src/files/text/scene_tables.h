@@ -112,7 +112,8 @@ inline constexpr Field<WaterPlane> kWaterKeys[] = {
     table<&WaterPlane::waves>(
         "waves", "", kFinite,
         "Sine waves of the surface, at most 1024: amplitude in scene units, wave vector in rad / "
-        "scene unit, phase in rad, omega in rad / s; without omega a wave has that of deep water."),
+        "scene unit, phase in rad, omega in rad / s; without omega a wave has that of deep water. "
+        "Plates need a look with wave_normals.model = sines."),
 };
 inline constexpr FieldTable<WaterPlane> kWaterTable{
     "water", "The water plane, and waves that displace it.", kWaterKeys};

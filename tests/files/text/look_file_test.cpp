@@ -210,7 +210,8 @@ TEST(LookNamed, SearchesTheFoldersInOrder) {
   EXPECT_EQ(error_of([&] { look_named("stromy", folders); }),
             "no look is named 'stromy': expected one of calm, stormy; did you mean 'stormy'?");
   EXPECT_EQ(error_of([&] { look_named("calm", std::span(folders, 1)); }),
-            "no look is named 'calm': expected the path of a look file");
+            "no look is named 'calm': expected the path of a look file, or looks in one of " +
+                folders[0].string());
   EXPECT_THAT(error_of([&] { look_named("", folders); }), HasSubstr("no look is named ''"));
 }
 
