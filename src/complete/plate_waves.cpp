@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -82,6 +83,51 @@ struct Products {
   Sym2<double> mean() const { return weight > 0 ? (1 / weight) * sum : Sym2<double>{0, 0, 0}; }
 };
 
+/// A pixel and the pixel below it.
+struct Neighbours {
+  glm::dvec2 step, slope, below;
+};
+
+/// PlateWaves::smooth.
+double smoothness(const std::vector<Neighbours>& all, const Sym2<double>& turn) {
+  constexpr double kFar = 4;           // of r' turn r: waves have turned
+  constexpr std::size_t kEnough = 64;  // what fewer pixels have in common is chance
+  constexpr int kHalvings = 16;
+  std::vector<double> turned;
+  std::vector<Neighbours> far;
+  glm::dvec2 mean(0);
+  for (const Neighbours& pair : all) {
+    const double square = along(turn, Vec2<double>{pair.step.x, pair.step.y});
+    if (!(square > kFar)) continue;
+    turned.push_back(square);
+    far.push_back(pair);
+    mean += 0.5 * (pair.slope + pair.below);
+  }
+  if (far.size() < kEnough) return 0;
+  const double count = static_cast<double>(far.size());
+  mean /= count;
+  const auto square = [](glm::dvec2 v) { return glm::dot(v, v); };
+  double differ = 0, vary = 0;
+  for (const Neighbours& pair : far) {
+    differ += square(pair.below - pair.slope);
+    vary += square(pair.slope - mean) + square(pair.below - mean);
+  }
+  const double common = vary > 0 ? 1 - differ / vary : 0;
+  // In the mean over a footprint 1 / (1 + x) is left of the variance, so of that at a place r away
+  // 1 / (1 + x / 2).
+  const auto expected = [&](double smooth) {
+    double sum = 0;
+    for (const double x : turned) sum += 1 / (1 + 0.5 * x / (1 + smooth * x));
+    return sum / count;
+  };
+  double least = 0, most = 1;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (least + most);
+    (expected(middle) < common ? least : most) = middle;
+  }
+  return least;
+}
+
 }  // namespace
 
 PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
@@ -90,6 +136,7 @@ PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
   const int across = std::max(1, window.width() / kMaxAcross);
   const int down = std::max(1, window.height() / kMaxAcross);
   Products slopes, turns;
+  std::vector<Neighbours> neighbours;
   double heights = 0, count = 0;
   for (int y = window.y0; y + 1 < window.y1; y += down) {
     const RowHeights row(view, y);
@@ -105,6 +152,7 @@ PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
       slopes.add(weight, here->slope);
       slopes.weight += weight;
       if (!right || !below) continue;
+      neighbours.push_back({below->place - here->place, here->slope, below->slope});
       const glm::dmat2 steps(right->place - here->place, below->place - here->place);
       const double longest = std::max(glm::length(steps[0]), glm::length(steps[1]));
       if (!(std::abs(glm::determinant(steps)) > 1e-9 * longest * longest)) continue;
@@ -125,6 +173,7 @@ PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
   waves.turn = (1 / whole) * turns.mean();
   const double most = waves.turn.xx + waves.turn.yy;
   if (most > kMaxTurn) waves.turn = (kMaxTurn / most) * waves.turn;
+  waves.smooth = smoothness(neighbours, waves.turn);
   return waves;
 }
 

@@ -12,7 +12,9 @@ namespace limpid {
 /// finite count as dry. `variance`: the mean square of slopes, each weighted by the square of the
 /// sine at which it is seen, because at flat angles a raised surface shows the slopes that face the
 /// view. `turn`: the mean square of the slopes' differences from pixel to pixel, per scene unit,
-/// over the variance, where pixels are small.
+/// over the variance, where pixels are small. `smooth`: such that pixels farther apart than the
+/// waves are long have in common what the frame shows, from 0, if they have nothing in common or if
+/// there are fewer than 64 of them, to 1.
 PlateWaves plate_waves_of(const Frame& frame, const WaterView& view);
 
 }  // namespace limpid

@@ -12,6 +12,9 @@ struct PlateWaves {
   double raised = 0;
   Sym2<double> variance{0, 0, 0};
   Sym2<double> turn{0, 0, 0};  ///< 1 / scene unit squared; of one sine its wave vector squared
+  /// Between neighbouring pixels x / (1 + smooth x) stands for x = r' turn r: far pixels of a mesh,
+  /// whose faces are large, have more in common than waves of that turn have.
+  double smooth = 0;
 };
 
 }  // namespace limpid

@@ -173,14 +173,16 @@ struct Kernel<WaveNormals> : WaveNormals {
     const Sym2<F> variance = of_plate(c.plate_waves.variance, "plate_waves.variance");
     const Sym2<F> turn = of_plate(c.plate_waves.turn, "plate_waves.turn");
     const F turn_area = max(turn.xx * turn.yy - turn.xy * turn.xy, F(0));
+    // A footprint is 1/12 of what lies between neighbouring pixels.
+    const F smooth = given<F>(12 * c.plate_waves.smooth, "plate_waves.smooth");
     const F enough = F(kWavy) * max(variance.xx + variance.yy, F(1e-12));
     const Vec3<F> up = vec3_of<F>(c.up);
     strip.around3(PlaneId::kSurfaceNormalX, [&](Pixel<F>& p, const Around<F>& normals) {
       const Vec3<F> n = normals[4];
       const Sym2<F> s = footprint(c, p);
-      const F along = turn.xx * s.xx + F(2) * turn.xy * s.xy + turn.yy * s.yy;
-      const F area = max(s.xx * s.yy - s.xy * s.xy, F(0));
-      const F square = F(1) / (F(1) + max(along, F(0)) + turn_area * area);
+      const F along = max(turn.xx * s.xx + F(2) * turn.xy * s.xy + turn.yy * s.yy, F(0));
+      const F area = max(s.xx * s.yy - s.xy * s.xy, F(0)), less = F(1) / (F(1) + smooth * along);
+      const F square = F(1) / (F(1) + less * (along + less * turn_area * area));
       const F kept = sqrt(square), rise = dot(n, up);
       p.normal = n;
       p.slope_variance = {F(0), F(0), F(0)};

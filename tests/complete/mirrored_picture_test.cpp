@@ -76,15 +76,29 @@ struct Poles : Ridge {
   }
 };
 
-// A wall that the picture's upper edge cuts goes on above it.
+// A wall that the picture's upper edge cuts goes on above it, as far as it is wide in the picture,
+// and by a half, a third where it would be twice, three times as high.
 TEST(MirroredPicture, GoesOnBeyondItsEdge) {
-  int beyond = 0;
-  const Poles wall(1000, {0, 0.3}, 15, 0, 0);
-  wall.each([&](int x, int y, float color) {
-    EXPECT_EQ(color, kWall) << x << ", " << y;
-    beyond += wall.mirrored_at(x, y, wall.far).y > 2 + wall.far * wall.ray(x, 0).y;
-  });
-  EXPECT_GT(beyond, 1000);
+  for (const double slope : {0.3, 0.5}) {
+    int beyond = 0, partly = 0;
+    const Poles wall(1000, {0, slope}, 15, 0, 0);
+    const double edge = 2 + wall.far * wall.ray(0, 0).y;
+    const double pixel = wall.far * (wall.ray(0, 0) - wall.ray(0, 1)).y;
+    const double beyond_all = wall.look.of<FresnelReflection>().color.r;  // it shows no sky
+    wall.each([&](int x, int y, float color) {
+      const glm::dvec3 at = wall.mirrored_at(x, y, wall.far);
+      const double over = std::max((at.y - edge) / pixel, 1e-9),
+                   column = std::clamp(wall.column_of(at), 0.5, Poles::kWide.width - 0.5);
+      const double seen =
+          std::min(2 * over, column) + std::min(2 * over, Poles::kWide.width - column);
+      const double share = std::min(seen / (2 * over), 1.0);
+      EXPECT_NEAR(color, beyond_all + share * (kWall - beyond_all), 0.03) << x << ", " << y;
+      beyond += over > 1;
+      partly += share < 0.5;
+    });
+    EXPECT_GT(beyond, 1000);
+    EXPECT_EQ(partly > 1000, slope > 0.4);
+  }
 }
 
 // Something narrow goes on only as far as it is wide, like a tree whose top the edge cuts.

@@ -110,5 +110,40 @@ TEST(PlateWaves, RaiseTheSurfaceBeyondWhatADepthIsOff) {
   }
 }
 
+/// The smoothness of a sea to the horizon with slopes of one direction, slope(distance, row).
+template <class Slope>
+double smoothness_of(const Slope& slope) {
+  Scene scene;
+  const glm::dvec3 eye(0, 2, 0);
+  scene.camera = Camera{glm::lookAt(eye, eye - glm::dvec3(0, 0.3, 1), {0, 1, 0}),
+                        perspective(0.6, 1.5, 0.1, 1e5, ClipSpace::kGl), ClipSpace::kGl};
+  scene.water = WaterPlane{};
+  Buffers b(rect_of({192, 128}));
+  b.fill(PlaneId::kDepth, 1e6f);
+  const Pass pass(scene, b.frame, 1.333, kWholeState);
+  for (int i = 0; i < 3; ++i) {
+    b.set(plane_after(PlaneId::kSurfaceNormalX, i), [&](int x, int y) {
+      const glm::dvec3 ray = pass.rays.ray_at(x + 0.5, y + 0.5);
+      const glm::dvec3 at = -2 / std::min(ray.y, -1e-9) * ray;
+      return static_cast<float>(glm::normalize(glm::dvec3(0, 1, slope(at, y)))[i]);
+    });
+  }
+  return waves_of(scene, b).smooth;
+}
+
+// Far waves that a pixel does not resolve have nothing in common with those of the next. Far waves
+// of a coarse mesh, here a radian from row to row, have: cos(1) = 1 / (1 + x / 2) for x = 1.7,
+// which stands for 4 and more.
+TEST(PlateWaves, OfACoarseMeshAreSmooth) {
+  const double steep = 0.05;
+  const auto sine = [&](const glm::dvec3& at) { return steep * std::sin(2.1 * at.z + 0.3 * at.x); };
+  EXPECT_LT(smoothness_of([&](const glm::dvec3& at, int) { return sine(at); }), 0.06);
+  const double smooth = smoothness_of([&](const glm::dvec3& at, int row) {
+    return at.z < -8 ? steep * std::sin(row + 0.01 * at.x) : sine(at);
+  });
+  EXPECT_GT(smooth, 1 / 1.7 - 1. / 4);
+  EXPECT_LT(smooth, 1 / 1.7);
+}
+
 }  // namespace
 }  // namespace limpid

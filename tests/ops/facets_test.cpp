@@ -221,6 +221,22 @@ TEST(PlateNormals, TellOfAPixelWhatItsWavesKeepOfThem) {
   }
 }
 
+// The footprint reaches over less of their turn: over turn / (1 + smooth turn).
+TEST(PlateNormals, OfFarWavesThatAreSmoothStay) {
+  Pass c = wavy_plate();
+  c.plate_waves.turn = {9, 0, 0};
+  const WaveNormals::Params params = filtered_plate();
+  for (const double smooth : {0.0, 0.25, 1.0}) {
+    c.plate_waves.smooth = smooth;
+    Nine strip(pixel_at(c, 30, 0), false);
+    strip.pixel.surface_depth = 50;
+    Kernel<WaveNormals>::apply(params, c, strip);
+    const double turn = 12 * 9 * footprint(c, strip.pixel).xx;
+    const double lost = 1 - 1 / (1 + turn / (1 + smooth * turn) / 12);
+    EXPECT_NEAR(strip.pixel.slope_variance.xx, lost * 0.02, 1e-9) << smooth;
+  }
+}
+
 // Waves that end, or a plate of which a part is calm.
 TEST(PlateNormals, ThatLeanAsTheirNeighboursDoHaveNoWavesToLose) {
   const Pass c = wavy_plate();
