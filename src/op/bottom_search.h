@@ -72,10 +72,8 @@ class BottomSearch {
       if (begins) hit = hit || passes_level_near(distance);
       // A steep rise of the bottom looks like an object in front of it until its edge is found.
       const auto doubtful = open && hidden < F(0.5) && at.behind >= F(0) && !hit;
-      if_any(doubtful, [&] {
-        const F edge = ray_.at_share(edge_between(before, t, most), most);
-        hit = hit || (doubtful && past(look(edge), F(2)) < F(0.5));
-      });
+      if_any(doubtful,
+             [&] { hit = hit || (doubtful && edge_between(before, t, most).hides < F(0.5)); });
       after = select(open && hit, t, after);
       before = select(open && !hit, t, before);
       hidden = select(open && !hit, select(is_free(at), F(0), F(1)), hidden);
@@ -113,11 +111,11 @@ class BottomSearch {
     const auto meets = found > F(0.5);
     F distance = F(0), sure = F(0);
     if_any(meets, [&] {
-      after = edge_between(before, after, most);
+      // The bisection may end at the edge of an object in front of the bottom.
+      const Edge edge = edge_between(before, after, most);
+      after = edge.share;
       const F met = ray_.at_share(after, most);
-      // The bisection may have ended at the edge of an object in front of the bottom.
-      const F at_edge = past(look(met), F(2));
-      sure = select(meets && hidden < F(0.5) && at_edge < F(0.5), F(1), F(0));
+      sure = select(meets && hidden < F(0.5) && edge.hides < F(0.5), F(1), F(0));
       // Nearest lookups make the depth plane a staircase; the interpolated level between its texels
       // is smooth, and at most about a texel away.
       const F smooth = to_level(met);
@@ -309,15 +307,36 @@ class BottomSearch {
     return ends;
   }
 
-  /// The share of the ray's length on screen at which it passes behind the visible surface, between
-  /// `before` and `after`; at `after` it is behind.
-  [[gnu::noinline]] F edge_between(F before, F after, F most) const {
-    return halve<F>(
-               {before, after}, 6,
-               [&](F t) __attribute__((always_inline)) {
-                 return look(ray_.at_share(t, most)).behind >= F(0);
-               })
-        .high;
+  /// Where a ray passes behind the visible surface.
+  struct Edge {
+    F share;  ///< of the ray's length on screen
+    F hides;  ///< 1 where it passes far behind that surface, and does not meet it
+  };
+
+  /// The edge between `before` and `after`; at `after` the ray is behind. A ray that runs close
+  /// over the surface up to the edge of something in front meets that surface: a ridge of a rock
+  /// hides a part of the rock behind it.
+  [[gnu::noinline]] Edge edge_between(F before, F after, F most) const {
+    const Bracket<F> ends = halve<F>(
+        {before, after}, 6, [&](F t) __attribute__((always_inline)) {
+          return look(ray_.at_share(t, most)).behind >= F(0);
+        });
+    constexpr int kTexels = 2;
+    Edge edge{ends.high, past(look(ray_.at_share(ends.high, most)), F(kTexels))};
+    if_any(edge.hides > F(0.5), [&] {
+      const F distance = ray_.at_share(ends.low, most), own = ray_.depth_at(distance);
+      const Vec2<F> shift = ray_.shift_at(distance);
+      const F seen = tap_.nearest(planes_.depth, shift);
+      auto close = edge.hides > F(0.5) && seen_drop(shift, seen) > F(0) &&
+                   abs(seen - own) <= slack_at(shift, own, F(kTexels));
+      if (c_.bottom_layer) {
+        // The layer tells where the bottom goes on behind what hides it.
+        const BottomLayerTaps<F, Tap> layer(*c_.bottom_layer, p_, tap_);
+        close = close && !layer.is_bottom(shift, F(0) - height_at(c_, p_, shift, seen));
+      }
+      edge = {select(close, ends.low, edge.share), select(close, F(0), edge.hides)};
+    });
+    return edge;
   }
 
   /// 1 where the visible surface lies far in front of the ray: it hides the bottom and is not hit.
@@ -327,15 +346,18 @@ class BottomSearch {
   LIMPID_INLINE F past(const Sight& at, F texels) const {
     F hides(0);
     if_any(at.behind >= F(0), [&] {
-      const F calm = min(calm_depth_at(c_, p_, at.shift), at.own);
       const F step = calm_depth_step(c_, p_, at.shift);
-      const F slack = F(kHiding) * (at.own - calm) + texels * step;
+      const F slack = slack_at(at.shift, at.own, texels);
       hides = select(at.behind > slack, F(1), F(0));
       if (!c_.bottom_layer) return;
       const auto doubtful = at.behind > F(0.5) * step && at.behind <= slack;
       if_any(doubtful, [&] { hides = select(doubtful, is_behind_thin(at), hides); });
     });
     return hides;
+  }
+  LIMPID_INLINE F slack_at(Vec2<F> shift, F own, F texels) const {
+    const F calm = min(calm_depth_at(c_, p_, shift), own);
+    return F(kHiding) * (own - calm) + texels * calm_depth_step(c_, p_, shift);
   }
   [[gnu::noinline]] F is_behind_thin(const Sight& at) const {
     const BottomLayerTaps<F, Tap> layer(*c_.bottom_layer, p_, tap_);

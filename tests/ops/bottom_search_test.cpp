@@ -20,7 +20,8 @@ struct FlatBottom {
   int& looks;
   double mixed = drop;  ///< the drop that a mix of four texels tells instead
   double shelf = drop, shelf_from = HUGE_VAL, rise = 1e-9;
-  double ended = 0;  ///< 1: the bottom layer says that the bottom has ended
+  double ended = 0;     ///< 1: the bottom layer says that the bottom has ended
+  double below = drop;  ///< the drop of the bottom layer
 
   double nearest(PlaneId, Vec2<double> shift) const {
     ++looks;
@@ -47,7 +48,7 @@ struct FlatBottom {
     return {.highest = static_cast<float>(-drop)};
   }
   static bool wet() { return true; }
-  Rgb<double> lat_long_rgb(const Texture&, Vec2<double>) const { return {drop, ended, 0}; }
+  Rgb<double> lat_long_rgb(const Texture&, Vec2<double>) const { return {below, ended, 0}; }
 };
 
 // Less steep than a refracted ray: the march crosses pixels on screen.
@@ -155,6 +156,30 @@ TEST(BottomSearch, BehindWhatHidesItTheBottomIsThatOfTheLayer) {
     without.ended = 1;
     EXPECT_EQ(march(view, without).distance, HUGE_VAL);
   }
+}
+
+// A ray that runs close over a rock and passes behind a ridge of the rock meets the rock there. If
+// it runs high over the rock it does not, and if that is the bottom, the layer says where it goes
+// on.
+TEST(BottomSearch, ARidgeHidesAPartOfItsRock) {
+  View view(kAside);
+  BottomLayer layer{};
+  layer.most_drop = 50;
+  view.pass.bottom_layer = &layer;
+  int looks = 0;
+  const auto found = [&](double rock, double bottom) {
+    return march(view, {.pass = view.pass,
+                        .pixel = view.pixel,
+                        .drop = rock,
+                        .looks = looks,
+                        .shelf = (1 - 0.32) * 2,
+                        .shelf_from = view.ray->shift_at(4).x,
+                        .below = bottom});
+  };
+  EXPECT_EQ(found(2.1, 9).sure, 1);
+  EXPECT_NEAR(found(2.1, 9).distance, 4, 0.1);
+  EXPECT_EQ(found(5, 9).sure, 0);
+  EXPECT_EQ(found(2.1, 2.1).sure, 0);
 }
 
 // The march meets a cliff that rises between two lookups, though the second lookup lies far behind

@@ -147,7 +147,7 @@ TEST_F(ShotReportTest, HasAllPicturesAndFacts) {
   EXPECT_EQ(there, named);
   EXPECT_EQ(count, kAovCount);
   EXPECT_THAT(named, Contains("dry.png"));
-  EXPECT_THAT(text_of("page/index.html"), Not(HasSubstr("http")));
+  EXPECT_THAT(text_of("page/index.html"), Not(HasSubstr("://")));
   const Ran parsed =
       run(folder_, {PYTHON3, "-c", "import xml.dom.minidom as d; d.parse('page/index.html')"});
   EXPECT_EQ(parsed.code, 0) << parsed.err;
