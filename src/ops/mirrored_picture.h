@@ -228,11 +228,11 @@ struct MirroredPicture : FresnelReflection {
           const Vec2<F> beside = next_to(c, p, at + F(share) * aside);
           meets = meets && tap.nearest(PlaneId::kDepth, beside) < F(1e30);
         }
-        // As far as it is wide in the picture: half of an object twice as high.
-        const Vec2<F> far{F(2) * abs(aside.x), F(2) * abs(aside.y)};
-        const Vec2<F> wide = next_to(c, p, at + far) - next_to(c, p, at - far);
-        const F room = (wide.x + wide.y) / max(far.x + far.y, F(1e-6));
-        const F share = select(meets, min(room, F(1)), F(0));
+        // Of heights of which nothing is known but that they are larger, half are more than twice
+        // as large.
+        const F known = height_at(c, p, at, seen);
+        const F wanted = height_at(c, p, ray.shift_at(distance), ray.depth_at(distance));
+        const F share = select(meets, min(known / max(wanted, F(1e-6)), F(1)), F(0));
         const Rgb<F> shown = bilinear_rgb<F>(tap, PlaneId::kColorR, at);
         beyond = {beyond.light + share * (shown - beyond.light),
                   beyond.sources + share * (from_picture<F>() - beyond.sources)};

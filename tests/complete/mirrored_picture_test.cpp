@@ -76,28 +76,22 @@ struct Poles : Ridge {
   }
 };
 
-// A wall that the picture's upper edge cuts goes on above it, as far as it is wide in the picture,
-// and by a half, a third where it would be twice, three times as high.
+// A wall that the picture's upper edge cuts goes on above it: half of all walls that are known to
+// be so high are twice as high, a third three times.
 TEST(MirroredPicture, GoesOnBeyondItsEdge) {
   for (const double slope : {0.3, 0.5}) {
     int beyond = 0, partly = 0;
     const Poles wall(1000, {0, slope}, 15, 0, 0);
     const double edge = 2 + wall.far * wall.ray(0, 0).y;
-    const double pixel = wall.far * (wall.ray(0, 0) - wall.ray(0, 1)).y;
     const double beyond_all = wall.look.of<FresnelReflection>().color.r;  // it shows no sky
     wall.each([&](int x, int y, float color) {
-      const glm::dvec3 at = wall.mirrored_at(x, y, wall.far);
-      const double over = std::max((at.y - edge) / pixel, 1e-9),
-                   column = std::clamp(wall.column_of(at), 0.5, Poles::kWide.width - 0.5);
-      const double seen =
-          std::min(2 * over, column) + std::min(2 * over, Poles::kWide.width - column);
-      const double share = std::min(seen / (2 * over), 1.0);
-      EXPECT_NEAR(color, beyond_all + share * (kWall - beyond_all), 0.03) << x << ", " << y;
-      beyond += over > 1;
+      const double share = std::min(edge / wall.mirrored_at(x, y, wall.far).y, 1.0);
+      EXPECT_NEAR(color, beyond_all + share * (kWall - beyond_all), 1e-3) << x << ", " << y;
+      beyond += share < 1;
       partly += share < 0.5;
     });
     EXPECT_GT(beyond, 1000);
-    EXPECT_EQ(partly > 1000, slope > 0.4);
+    EXPECT_GT(partly, 1000);
   }
 }
 
@@ -113,9 +107,9 @@ TEST(MirroredPicture, GoesOnAsFarAsItIsWide) {
                pixel = 19 * (tower.ray(x, 0) - tower.ray(x, 1)).y;
   tower.each([&](int column, int y, float color) {
     if (column != x) return;
-    const double over = (tower.mirrored_at(x, y, 19).y - edge) / pixel;
+    const double height = tower.mirrored_at(x, y, 19).y, over = (height - edge) / pixel;
     if (over > 2 && over < 15) {
-      EXPECT_EQ(color, kInside) << y;
+      EXPECT_NEAR(color, kSky + edge / height * (kInside - kSky), 0.1) << y;
       ++seen;
     }
     if (over > 25) {
@@ -169,7 +163,7 @@ TEST(MirroredPicture, APoleIsAsThickAsItIsNarrow) {
     const double wall = column(poles.far);
     if (std::abs(wall - 160) < 3) return;  // texels beside the pole are mixed with it
     if (after < 157 || before > 163) {
-      EXPECT_EQ(color, kWall) << x << ", " << y;
+      EXPECT_NEAR(color, kWall, 0.5) << x << ", " << y;  // a little of the sky over the edge
       ++passed;
     }
   });
