@@ -96,9 +96,10 @@ struct BottomLayerMaker::Scan {
     }
     relights = shadow && shadow.window.contains(window);
     double most = 0;
+    const bool known = frame.present().covers(kSunColorPlanes);
     for (std::size_t i = 0; i < 3; ++i) {
-      sun[i] = frame.plane(plane_after(PlaneId::kSunColorR, static_cast<int>(i)));
-      relights = relights && sun[i] && sun[i].window.contains(window);
+      if (known) sun[i] = frame.plane(plane_after(PlaneId::kSunColorR, static_cast<int>(i)));
+      relights = relights && (!sun[i] || sun[i].window.contains(window));
       sun_over_rest[i] = static_cast<float>(std::min(over_rest[i], kMostSun));
       most = std::max(most, over_rest[i]);
     }
@@ -113,10 +114,11 @@ struct BottomLayerMaker::Scan {
   std::array<float, 3> color_at(int x, int y) const {
     std::array<float, 3> seen{color[0].at(x, y), color[1].at(x, y), color[2].at(x, y)};
     if (!relights) return seen;
-    const float shade = 1 - std::clamp(shadow.at(x, y), 0.0f, 1.0f);
+    const float lit = std::clamp(shadow.at(x, y), 0.0f, 1.0f);
     for (std::size_t i = 0; i < 3; ++i) {
-      const float rest = std::max(seen[i] - std::max(sun[i].at(x, y), 0.0f), 0.0f);
-      seen[i] += shade * sun_over_rest[i] * rest;
+      const float rest = sun[i] ? std::max(seen[i] - std::max(sun[i].at(x, y), 0.0f), 0.0f)
+                                : seen[i] / (1 + lit * sun_over_rest[i]);
+      seen[i] += (1 - lit) * sun_over_rest[i] * rest;
     }
     return seen;
   }

@@ -26,8 +26,9 @@ class BottomLayerMaker {
   /// water. Made from color and depth even if the frame has a layer below the water: that layer is
   /// empty under land, and shows objects in the water as the picture does. Valid until the next
   /// call. The same for any number of threads. With `sun_over_rest` (SunShare) above 0, and
-  /// with shadow and sun_color wherever color and depth are, its colors are those of a bottom that
-  /// is all in the sun, for operators that find the shadows of hidden bottom themselves.
+  /// with shadow, and sun_color if the frame has it, wherever color and depth are, its colors are
+  /// those of a bottom that is all in the sun, for operators that find the shadows of hidden bottom
+  /// themselves.
   const BottomLayer* make(const Frame& frame, const Pass& pass,
                           const std::array<double, 3>& sun_over_rest, Executor& executor);
 

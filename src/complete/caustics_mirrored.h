@@ -18,9 +18,9 @@ namespace limpid {
 ///
 /// The depth of that point below the surface is the height of its image over the surface, by the
 /// reflection's depth. The sun's share in its light comes from the dry picture, if that shows the
-/// point; else it is the share of sunlit bottoms, if the frame has sun_color, or that of sun and
-/// sky, by the shadow on the surface at the entry point. If no plane shows the entry point either,
-/// the point counts as lit.
+/// point; else it is the share of sunlit bottoms (SunShare), if sunlight is refracted, or that of
+/// sun and sky, by the shadow on the surface at the entry point. If no plane shows the entry point
+/// either, the point counts as lit.
 class MirroredCaustics {
  public:
   /// Replaces the views of the frame's reflection, if the eye is in the water and the reflection

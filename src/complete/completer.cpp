@@ -53,7 +53,11 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   now.planes = whole.present();
   now.wave_variance = whole.wave_variance;
   std::array<double, 3> sun_over_rest{};
-  if (plan.keeps<Caustics>()) sun_over_rest = sun_share_.over_rest(whole, now, executor);
+  const bool refracted = caustics.sunlight == Caustics::Sunlight::kRefracted;
+  if (plan.keeps<Caustics>() && (refracted || now.planes.covers(kSunColorPlanes))) {
+    sun_over_rest =
+        sun_share_.over_rest(whole, now, Kernel<Caustics>::sun_over_sky(caustics, now), executor);
+  }
   if (refraction.uses_bottom_layer()) {
     const bool shades = plan.keeps<Caustics>() &&
                         Kernel<Caustics>::knows_entries(caustics, pass, now.planes & plan.planes);

@@ -1,9 +1,9 @@
 #include "complete/plate_waves.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
-#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
@@ -83,50 +83,59 @@ struct Products {
   Sym2<double> mean() const { return weight > 0 ? (1 / weight) * sum : Sym2<double>{0, 0, 0}; }
 };
 
-/// A pixel and the pixel below it.
-struct Neighbours {
-  glm::dvec2 step, slope, below;
-};
+/// What far pixels have in common with the pixels below them: PlateWaves::smooth.
+class Neighbours {
+ public:
+  explicit Neighbours(const Sym2<double>& turn) : turn_(turn) {}
 
-/// PlateWaves::smooth.
-double smoothness(const std::vector<Neighbours>& all, const Sym2<double>& turn) {
-  constexpr double kFar = 4;           // of r' turn r: waves have turned
-  constexpr std::size_t kEnough = 64;  // what fewer pixels have in common is chance
-  constexpr int kHalvings = 16;
-  std::vector<double> turned;
-  std::vector<Neighbours> far;
-  glm::dvec2 mean(0);
-  for (const Neighbours& pair : all) {
-    const double square = along(turn, Vec2<double>{pair.step.x, pair.step.y});
-    if (!(square > kFar)) continue;
-    turned.push_back(square);
-    far.push_back(pair);
-    mean += 0.5 * (pair.slope + pair.below);
+  void add(const Seen& pixel, const Seen& below) {
+    const glm::dvec2 step = below.place - pixel.place;
+    const double x = along(turn_, Vec2<double>{step.x, step.y});
+    if (!(x > kFar)) return;
+    const int nth = static_cast<int>(kPerOctave * std::log2(x / kFar));
+    counts_[static_cast<std::size_t>(std::min(nth, kBins - 1))] += 1;
+    count_ += 1;
+    mean_ += 0.5 * (pixel.slope + below.slope);
+    const glm::dvec2 change = below.slope - pixel.slope;
+    differ_ += glm::dot(change, change);
+    square_ += glm::dot(pixel.slope, pixel.slope) + glm::dot(below.slope, below.slope);
   }
-  if (far.size() < kEnough) return 0;
-  const double count = static_cast<double>(far.size());
-  mean /= count;
-  const auto square = [](glm::dvec2 v) { return glm::dot(v, v); };
-  double differ = 0, vary = 0;
-  for (const Neighbours& pair : far) {
-    differ += square(pair.below - pair.slope);
-    vary += square(pair.slope - mean) + square(pair.below - mean);
+
+  double smooth() const {
+    constexpr double kEnough = 64;  // what fewer pixels have in common is chance
+    constexpr int kHalvings = 16;
+    const double trust = std::clamp(count_ / kEnough - 1, 0.0, 1.0);
+    if (trust == 0) return 0;
+    const double vary = square_ - 2 * glm::dot(mean_, mean_) / count_;
+    const double common = vary > 0 ? 1 - differ_ / vary : 0;
+    double least = 0, most = 1;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (least + most);
+      (expected(middle) < common ? least : most) = middle;
+    }
+    return trust * least;
   }
-  const double common = vary > 0 ? 1 - differ / vary : 0;
-  // In the mean over a footprint 1 / (1 + x) is left of the variance, so of that at a place r away
-  // 1 / (1 + x / 2).
-  const auto expected = [&](double smooth) {
+
+ private:
+  static constexpr double kFar = 4;  ///< of x = r' turn r, where waves have turned
+  static constexpr int kPerOctave = 4, kBins = 100;
+
+  /// In the mean over a footprint 1 / (1 + x) is left of the variance, so of that at a place r away
+  /// 1 / (1 + x / 2).
+  double expected(double smooth) const {
     double sum = 0;
-    for (const double x : turned) sum += 1 / (1 + 0.5 * x / (1 + smooth * x));
-    return sum / count;
-  };
-  double least = 0, most = 1;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (least + most);
-    (expected(middle) < common ? least : most) = middle;
+    for (int i = 0; i < kBins; ++i) {
+      const double x = kFar * std::exp2((i + 0.5) / kPerOctave);
+      sum += counts_[static_cast<std::size_t>(i)] / (1 + 0.5 * x / (1 + smooth * x));
+    }
+    return sum / count_;
   }
-  return least;
-}
+
+  const Sym2<double>& turn_;
+  std::array<double, kBins> counts_{};
+  double count_ = 0, differ_ = 0, square_ = 0;
+  glm::dvec2 mean_{0};  ///< times count_
+};
 
 }  // namespace
 
@@ -136,7 +145,6 @@ PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
   const int across = std::max(1, window.width() / kMaxAcross);
   const int down = std::max(1, window.height() / kMaxAcross);
   Products slopes, turns;
-  std::vector<Neighbours> neighbours;
   double heights = 0, count = 0;
   for (int y = window.y0; y + 1 < window.y1; y += down) {
     const RowHeights row(view, y);
@@ -152,7 +160,6 @@ PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
       slopes.add(weight, here->slope);
       slopes.weight += weight;
       if (!right || !below) continue;
-      neighbours.push_back({below->place - here->place, here->slope, below->slope});
       const glm::dmat2 steps(right->place - here->place, below->place - here->place);
       const double longest = std::max(glm::length(steps[0]), glm::length(steps[1]));
       if (!(std::abs(glm::determinant(steps)) > 1e-9 * longest * longest)) continue;
@@ -173,7 +180,14 @@ PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
   waves.turn = (1 / whole) * turns.mean();
   const double most = waves.turn.xx + waves.turn.yy;
   if (most > kMaxTurn) waves.turn = (kMaxTurn / most) * waves.turn;
-  waves.smooth = smoothness(neighbours, waves.turn);
+  Neighbours neighbours(waves.turn);
+  for (int y = window.y0; y + 1 < window.y1; y += down) {
+    for (int x = window.x0; x + 1 < window.x1; x += across) {
+      const std::optional<Seen> here = surface.at(x, y), below = surface.at(x, y + 1);
+      if (here && below) neighbours.add(*here, *below);
+    }
+  }
+  waves.smooth = neighbours.smooth();
   return waves;
 }
 

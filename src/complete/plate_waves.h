@@ -14,7 +14,7 @@ namespace limpid {
 /// view. `turn`: the mean square of the slopes' differences from pixel to pixel, per scene unit,
 /// over the variance, where pixels are small. `smooth`: such that pixels farther apart than the
 /// waves are long have in common what the frame shows, from 0, if they have nothing in common or if
-/// there are fewer than 64 of them, to 1.
+/// there are 64 of them or fewer, to 1.
 PlateWaves plate_waves_of(const Frame& frame, const WaterView& view);
 
 }  // namespace limpid

@@ -273,7 +273,7 @@ void warn_of_light(const Plan& plan, const Frame& frame, const Pass& c,
 void warn_of_slopes(const Plan& plan, const Frame& frame, std::vector<std::string>& warnings) {
   const bool bends =
       plan.keeps<Caustics>() && plan.look.of<Caustics>().sunlight == Caustics::Sunlight::kRefracted;
-  if (!bends || !frame.present().covers(kSunColorPlanes) || has_fine_depth(frame)) return;
+  if (!bends || has_fine_depth(frame)) return;
   warnings.push_back(
       "all depths have half precision, too coarse to tell slopes: under water they reflect the "
       "sun as in the dry picture; expected depth of full precision");

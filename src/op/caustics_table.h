@@ -27,7 +27,7 @@ struct CausticsTable {
   int first = 0;  ///< index of the first level among the levels of all tables of the frame
   std::array<Level, kMaxLevels> levels;
   double scale = 1;  ///< width of a texel over caustics_texel()
-  /// On sunlit bottoms: the sun's light over all other light, for frames with sun_color; else 0.
+  /// On sunlit bottoms: the sun's light over all other light, for frames with shadow; else 0.
   std::array<double, 3> sun_over_rest{};
   double slopes = 0;  ///< 1 if the depth is fine enough to tell the slope of the bottom
   /// Share of the focused light that the water scatters, and so spreads, per unit of depth, of red,

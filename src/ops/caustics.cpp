@@ -20,8 +20,8 @@ constexpr Field<P> kFields[] = {
                         "Part of the bottom's light that is sunlight, if no sky is known."),
     choice<&P::sunlight, kSunlight>("sunlight",
                                     "Sunlight in the water, on slopes and in shadows: straight "
-                                    "as in the dry picture, or refracted, by sun_color; shadows "
-                                    "also need the planes shadow and surface_shadow."),
+                                    "as in the dry picture, or refracted, with the planes "
+                                    "sun_color or shadow; shadows need shadow."),
 };
 
 }  // namespace
@@ -30,16 +30,17 @@ std::span<const Field<P>> Caustics::fields() { return kFields; }
 
 std::string_view Kernel<Caustics>::prefer(P& params, const AtHand& has) {
   if (params.sunlight == Sunlight::kStraight) return "";
-  if (!has.planes.covers(kSunColorPlanes)) {
-    params.sunlight = Sunlight::kStraight;
-    return "sunlight on the bottom stays unrefracted";
-  }
-  return has.planes.has(PlaneId::kShadow) ? "" : "shadows on the bottom stay unrefracted";
+  const bool known = has.planes.covers(kSunColorPlanes);
+  if (has.planes.has(PlaneId::kShadow))
+    return known ? "" : "no sun_color, the strength of sunlight is estimated";
+  if (known) return "shadows on the bottom stay unrefracted";
+  params.sunlight = Sunlight::kStraight;
+  return "sunlight on the bottom stays unrefracted";
 }
 
 bool Kernel<Caustics>::knows_entries(const P& params, const Pass& c, PlaneSet planes) {
   return params.sunlight == Sunlight::kRefracted && glm::dot(c.sun.direction, c.up) > 1e-3 &&
-         planes.covers(kSunColorPlanes | PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow});
+         planes.covers(PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow});
 }
 
 Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& c) {
@@ -49,7 +50,9 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
   light.sine = std::sqrt(std::max(1 - light.rise * light.rise, 0.0));
   light.level = {glm::dot(to_sun, c.map_x), glm::dot(to_sun, c.map_y)};
   light.known = c.planes.covers(kSunColorPlanes);
-  light.bends = params.sunlight == Sunlight::kRefracted && light.known && light.rise > 1e-3;
+  const bool refracted = params.sunlight == Sunlight::kRefracted;
+  light.estimated = refracted && !light.known && c.planes.has(PlaneId::kShadow);
+  light.bends = refracted && (light.known || light.estimated) && light.rise > 1e-3;
   light.moves = light.bends && c.planes.has(PlaneId::kShadow);
   light.entries = light.bends && knows_entries(params, c, c.planes);
   const Rays& rays = c.rays;
@@ -67,7 +70,24 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
     light.sun.fill(params.sun_share);
     light.ambient.fill(1 - params.sun_share);
   }
+  if (light.estimated && c.caustics) {
+    light.sun = c.caustics->sun_over_rest;
+    light.ambient.fill(1);
+  }
   return light;
+}
+
+std::array<double, 3> Kernel<Caustics>::sun_over_sky(const P& params, const Pass& c) {
+  constexpr double kMost = 100;  // where the sky is almost black
+  Pass unlit = c;
+  unlit.caustics = nullptr;
+  const Light light = light_of(params, unlit);
+  std::array<double, 3> over{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (light.sun[i] > 0)
+      over[i] = std::min(light.sun[i] / std::max(light.ambient[i], 1e-30), kMost);
+  }
+  return over;
 }
 
 /// The fog passes on a share of the light from below. The reflection of the bottom has the same
@@ -92,12 +112,12 @@ void Kernel<Caustics>::propagate_ranges(const P& params, const Pass& c, Ranges& 
   const Light light = light_of(params, c);
   const double gain = c.caustics ? params.strength * (c.caustics->most - 1) : HUGE_VAL;
   const double loss = c.caustics ? params.strength * (1 - std::max(c.caustics->least, 0.0)) : 1;
-  // Without sun_color the bottom behind an object counts as lit.
+  // Straight light counts as lighting the bottom behind an object.
   const double lit = SeenPlanes::of(c).below ? 1 : ranges.shadow.max;
   double change = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     double share = 1;
-    if (!light.known) {
+    if (!light.known && !light.estimated) {
       const double direct = bound_product(lit, light.sun[i]);
       share = direct / std::max(direct + light.ambient[i], 1e-30);
     }

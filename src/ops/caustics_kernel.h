@@ -46,12 +46,15 @@ struct Kernel<Caustics> : Caustics {
     double rise, sine;             ///< of the angle between the sun and the horizon, the vertical
     Vec2<double> level;            ///< the direction to the sun along map_x and map_y
     bool known;                    ///< the frame has the sun's light
+    bool estimated;                ///< from its shadows: CausticsTable::sun_over_rest
     bool bends, moves;             ///< the water bends it, and shadows on the bottom are known
     bool entries;                  ///< knows_entries()
     double facing;                 ///< 1 or -1: the sign of across x down towards the viewer
     std::array<double, 3> around;  ///< share of the light of sunlit bottoms, if it is known
   };
   static Light light_of(const Params& params, const Pass& c);
+  /// The sun's light on a level bottom over the sky's, of red, green and blue.
+  static std::array<double, 3> sun_over_sky(const Params& params, const Pass& c);
   /// Whether a frame with these planes tells what sunlight passes the surface where it enters.
   static bool knows_entries(const Params& params, const Pass& c, PlaneSet planes);
   /// Ratio of two depths below which the farther place counts as hidden by the nearer place.
@@ -200,7 +203,7 @@ struct Kernel<Caustics> : Caustics {
             const F seen = select(hidden, as_around, shown + mixed * (as_around - shown));
             sun = min(max(seen, F(0)), max(transmitted, F(0)));
           } else {
-            const F direct = lit * of_channel(i, light.sun, "caustics.sun");
+            const F direct = sunlit.dry * of_channel(i, light.sun, "caustics.sun");
             const F ambient = of_channel(i, light.ambient, "caustics.ambient");
             sun = direct / max(direct + ambient, F(1e-30)) * transmitted;
           }

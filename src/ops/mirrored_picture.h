@@ -234,8 +234,9 @@ struct MirroredPicture : FresnelReflection {
         const F wanted = height_at(c, p, ray.shift_at(distance), ray.depth_at(distance));
         const F share = select(meets, min(known / max(wanted, F(1e-6)), F(1)), F(0));
         const Rgb<F> shown = bilinear_rgb<F>(tap, PlaneId::kColorR, at);
-        beyond = {beyond.light + share * (shown - beyond.light),
-                  beyond.sources + share * (from_picture<F>() - beyond.sources)};
+        const F rest = F(1) - share;
+        beyond = {rest * beyond.light + share * shown,
+                  rest * beyond.sources + share * from_picture<F>()};
       });
     });
     return beyond;

@@ -56,15 +56,16 @@ void skip_absent_input(Plan& plan, const Inputs& inputs) {
 }
 
 /// In chain order, because leaving out an operator can make a later one neutral. Neutral refers to
-/// the picture: an operator that makes the path stays if the path is an output.
+/// the picture: an operator that makes the path stays if the path is an output, and makes no later
+/// operator change the picture.
 void skip_neutral(Plan& plan, const Inputs&) {
   StateSet made;
   for_each_kept(plan, [&](PlannedOperator& op, const OperatorEntry& entry) {
     const bool measured = entry.makes.has(StatePart::kPath) && plan.outputs.has(StatePart::kPath);
-    if (entry.neutral(plan.look, made) && !measured) {
-      skip(op, Verdict::kNeutral, "its parameters change nothing here");
-    } else {
+    if (!entry.neutral(plan.look, made)) {
       made = made | entry.makes;
+    } else if (!measured) {
+      skip(op, Verdict::kNeutral, "its parameters change nothing here");
     }
   });
 }

@@ -104,6 +104,7 @@ TEST(MirroredCaustics, LeaveWhatThePictureShowsInShadow) {
                  .x;
   const double x = 4 * ((96 + 0.5) / kSide - 0.5), focused = 1.5 + (x - aside) / 4;
   lit.params.sun_share = 0.8;
+  lit.params.sunlight = Caustics::Sunlight::kStraight;
   EXPECT_EQ(lit.green(96, row + 1), 0.5);
   EXPECT_NEAR(lit.green(96, row), 0.5 * (1 + 0.2 / 0.4 * (focused - 1)), 1e-6);
   lit.basin.buffers.fill(PlaneId::kDepth, 1.5f);  // an object before the point

@@ -1,5 +1,7 @@
 #include "complete/sun_share.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "complete/pool.h"
@@ -29,7 +31,7 @@ struct LitPool {
   std::array<double, 3> over_rest(int threads = 1) const {
     SunShare share;
     const auto executor = make_executor(threads);
-    return share.over_rest(pool.buffers.frame, pool.pass(), *executor);
+    return share.over_rest(pool.buffers.frame, pool.pass(), {9, 8, 7}, *executor);
   }
 };
 
@@ -42,13 +44,37 @@ TEST(SunShare, IsThatOfSunlitBottomsAlone) {
   }
 }
 
-TEST(SunShare, IsNoneInTheShadeAndWithoutTheSunsLight) {
+TEST(SunShare, IsNoneInTheShadeAndWithoutShadow) {
   LitPool shaded;
   shaded.pool.buffers.fill(PlaneId::kShadow, 0);
   EXPECT_EQ(shaded.over_rest()[0], 0);
   LitPool unknown;
-  unknown.pool.buffers.frame.planes[index_of(PlaneId::kSunColorG)] = {};
+  unknown.pool.buffers.frame.planes[index_of(PlaneId::kShadow)] = {};
   EXPECT_EQ(unknown.over_rest()[0], 0);
+}
+
+// The albedo differs from place to place, and shadows have edges along rows and columns.
+TEST(SunShare, IsThatOfTheEdgesOfShadowsWithoutTheSunsLight) {
+  LitPool unknown;
+  test::Buffers& buffers = unknown.pool.buffers;
+  const auto lit = [](int x, int y) { return x % 16 < 8 && y % 24 < 12 ? 1.0f : 0.0f; };
+  buffers.set(PlaneId::kShadow, lit);
+  for (int c = 0; c < 3; ++c) {
+    buffers.frame.planes[index_of(plane_after(PlaneId::kSunColorR, c))] = {};
+    const float sun = 0.6f - 0.2f * static_cast<float>(c);
+    buffers.set(plane_after(PlaneId::kColorR, c), [=](int x, int y) {
+      const float albedo = 1 + 0.3f * static_cast<float>(std::sin(1.7 * x) * std::cos(2.3 * y));
+      return albedo * (sun * lit(x, y) + 0.2f);
+    });
+  }
+  for (const int threads : {1, 3}) {
+    const std::array<double, 3> share = unknown.over_rest(threads);
+    EXPECT_NEAR(share[0], 3, 0.2);
+    EXPECT_NEAR(share[1], 2, 0.15);
+    EXPECT_NEAR(share[2], 1, 0.1);
+  }
+  buffers.fill(PlaneId::kShadow, 1);
+  EXPECT_EQ(unknown.over_rest(), (std::array<double, 3>{9, 8, 7}));
 }
 
 TEST(SunShare, IsBoundWhereAllLightIsTheSuns) {

@@ -12,8 +12,8 @@ using test::Tray;
 /// A bottom 4 below calm water, seen straight from above, a unit a pixel, sun from the right at 0.6
 /// of the vertical: straight light goes 16 / 3 to the left on its path down, refracted light 3. A
 /// board lies on the water in columns 12 ... 15.
-Tray under_a_board() {
-  Tray tray({24, 5});
+Tray under_a_board(int rows = 5) {
+  Tray tray({24, rows});
   tray.scene.sun = Sun{.direction = {0.8, 0.6, 0}};
   const auto covered = [](double left, double right, int x) {
     return static_cast<float>(
@@ -56,6 +56,24 @@ TEST(Caustics, MoveShadowsThatNoSurfaceTells) {
   const test::Picture wet = tray.wet();
   for (const int x : {10, 11}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-3) << x;
   for (const int x : {4, 5, 7, 14, 16}) EXPECT_NEAR(wet.color(x, 2).r, 0.5, 1e-3) << x;
+}
+
+// Without sun_color, too. The light of the sun, 1.5 times that of the sky, is told by the scene, or
+// by the edges of the shadow if it has enough of them.
+TEST(Caustics, MoveShadowsOfASunThatIsEstimated) {
+  for (const int which : {0, 1, 2, 3}) {
+    const bool of_surface = which % 2 == 1, told_by_edges = which >= 2;
+    const int rows = told_by_edges ? 101 : 5, row = rows / 2;
+    Tray tray = under_a_board(rows);
+    if (!told_by_edges) tray.scene.sky = {{0.4, 0.4, 0.4}};
+    for (int c = 0; c < 3; ++c) {
+      tray.buffers.frame.planes[index_of(plane_after(PlaneId::kSunColorR, c))] = {};
+    }
+    if (!of_surface) tray.buffers.frame.planes[index_of(PlaneId::kSurfaceShadow)] = {};
+    const test::Picture wet = tray.wet();
+    for (const int x : {10, 11}) EXPECT_NEAR(wet.color(x, row).r, 0.2, 1e-3) << x;
+    for (const int x : {4, 5, 7, 14, 16}) EXPECT_NEAR(wet.color(x, row).r, 0.5, 1e-3) << x;
+  }
 }
 
 // Beside a step, the bottom in the direction of the sun is another.
@@ -158,7 +176,10 @@ TEST(Caustics, SayWhatThePlateHasNoPlanesFor) {
   const PlaneSet shadows{PlaneId::kShadow, PlaneId::kSurfaceShadow};
   using enum Caustics::Sunlight;
   EXPECT_EQ(preferred({}, kStraight), std::pair(std::string(), kStraight));
-  EXPECT_EQ(preferred(shadows, kRefracted),
+  EXPECT_EQ(
+      preferred(shadows, kRefracted),
+      std::pair(std::string("no sun_color, the strength of sunlight is estimated"), kRefracted));
+  EXPECT_EQ(preferred(PlaneSet{PlaneId::kSurfaceShadow}, kRefracted),
             std::pair(std::string("sunlight on the bottom stays unrefracted"), kStraight));
   EXPECT_EQ(preferred(kSunColorPlanes, kRefracted),
             std::pair(std::string("shadows on the bottom stay unrefracted"), kRefracted));

@@ -95,6 +95,7 @@ TEST(Caustics, MultiplyTheSunsShare) {
   test::expect_rgb(basin.lit(4, 2), {0.7, 0.7, 0.7});
   basin.params.strength = 0.5;
   test::expect_rgb(basin.lit(4, 2), {0.6, 0.6, 0.6});
+  basin.params.sunlight = Caustics::Sunlight::kStraight;
   basin.tray.buffers.fill(PlaneId::kShadow, 0.5f);  // 0.4 of 0.6
   test::expect_rgb(basin.lit(4, 2),
                    {0.5 * (1 + 0.25 * 2 / 3), 0.5 * (1 + 0.25 * 2 / 3), 0.5 * (1 + 0.25 * 2 / 3)});

@@ -149,7 +149,7 @@ std::string look_toml() {
          "[refraction]\nmodel = \"normal_offset\"\nrejection = \"snap\"\noff_frame = "
          "\"clamp\"\nstrength = 0.03\n\n"
          "[prism_split]\nmodel = \"axis\"\nstrength = 0.004\n\n"
-         "[caustics]\nstrength = 0.0\n\n"
+         "[caustics]\nstrength = 0.0\nsunlight = \"straight\"\n\n"
          "[depth_fog]\nmodel = \"linear\"\ndistance = \"eye\"\ndensity = 0.15\n"
          "color = [0.02, 0.10, 0.12]\nalpha = 0.9\n\n"
          "[water_shadow]\nmodel = \"darken\"\nstrength = 0.5\n\n"

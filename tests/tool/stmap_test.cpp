@@ -20,12 +20,13 @@ class StmapTest : public ToolTest {
                         "64x36", "3", "-d", "float", "-o", "dry.exr"})
                   .code,
               0);
-    write_text("clear.toml",
-               "[wave_normals]\nmap = \"waves.exr\"\ntile_size = 3.0\n\n"
-               "[prism_split]\ngain = 5.0\n\n[caustics]\nstrength = 0.0\n\n"
-               "[depth_fog]\nwater_type = \"custom\"\nabsorption = [0, 0, 0]\n"
-               "scattering = [0, 0, 0]\ncrossing = \"none\"\n\n"
-               "[fresnel_reflection]\nsource = \"constant\"\n");
+    write_text(
+        "clear.toml",
+        "[wave_normals]\nmap = \"waves.exr\"\ntile_size = 3.0\n\n"
+        "[prism_split]\ngain = 5.0\n\n[caustics]\nstrength = 0.0\nsunlight = \"straight\"\n\n"
+        "[depth_fog]\nwater_type = \"custom\"\nabsorption = [0, 0, 0]\n"
+        "scattering = [0, 0, 0]\ncrossing = \"none\"\n\n"
+        "[fresnel_reflection]\nsource = \"constant\"\n");
   }
 
   /// Whether a dry channel, warped by the map and times 1 - F, equals the light that passes the

@@ -9,7 +9,9 @@ import subprocess
 import sys
 import tempfile
 
-MOST_MEAN, MOST_FAR = 2e-6, 1e-3  # limits on a difference, and on the share of values that are off by more than .001
+# Limits on the mean difference, and on the share of values that are off by more than .001: where waves or the edges of
+# shadows decide by a rounding, `physical` is.
+MOST_MEAN, MOST_FAR = {"realistic": 2e-6, "physical": 6e-6}, 1e-3
 
 
 def main():
@@ -29,8 +31,8 @@ def main():
             sys.exit(f"{look}: the page says nothing\n{shown.stderr}")
         mean, far, values = float(found[1]), int(found[2]), int(found[3])
         print(f"{look}: {found[0]}")
-        if not (mean <= MOST_MEAN and far <= MOST_FAR * values):
-            sys.exit(f"{look}: expected a mean of {MOST_MEAN} and a share of {MOST_FAR} at most")
+        if not (mean <= MOST_MEAN[look] and far <= MOST_FAR * values):
+            sys.exit(f"{look}: expected a mean of {MOST_MEAN[look]} and a share of {MOST_FAR} at most")
 
 
 if __name__ == "__main__":

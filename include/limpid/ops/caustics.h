@@ -12,14 +12,16 @@ namespace limpid {
 /// the irradiance of the bottom by the sun, divided by that under calm water. It comes from a table
 /// of light that is traced from the waves down (complete/caustics.h), looked up for the end of the
 /// refracted view ray, per channel with its own index of refraction. The sun's part is the plane
-/// sun_color if the frame has it; else that of a level bottom under the shadow, the sun and the
-/// radiance of the sky; without a sky `sun_share` of the light, where the sun is visible.
+/// sun_color if the frame has it; else that of a level bottom under the shadow. How much stronger
+/// the sun's light is than all other light, the frame tells at the edges of shadows on its bottom
+/// (complete/sun_share.h) if its light is refracted, or else the sun and the radiance of the sky;
+/// without a sky `sun_share` of the light is the sun's, where the sun is visible.
 ///
 /// The sun lights the dry picture straight. `sunlight` = `refracted` refracts its light, in frames
-/// with sun_color, also if strength is 0. Slopes and walls then reflect the sun at the angle at
-/// which light meets them under calm water: a wall that faces the sun becomes darker. The slope
-/// comes from the depth, unless all eye depths have half precision, which is too coarse. Shadows
-/// move to their refracted positions, in frames with shadow, too: the unrefracted shadow is
+/// with sun_color or shadow, also if strength is 0. Slopes and walls then reflect the sun at the
+/// angle at which light meets them under calm water: a wall that faces the sun becomes darker. The
+/// slope comes from the depth, unless all eye depths have half precision, which is too coarse.
+/// Shadows move to their refracted positions, in frames with shadow: the unrefracted shadow is
 /// removed, by an estimate of the sun's light from the bottom's other light and from sunlit bottom
 /// nearby, and the shadow on the surface at the entry point of calm water is applied. Without
 /// surface_shadow, and where the picture does not show that entry point (beyond its edge, or behind

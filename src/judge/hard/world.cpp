@@ -166,6 +166,7 @@ Look calm_look(const HardWorld& world) {
   look.of<FresnelReflection>().facets = FresnelReflection::Facets::kMean;
   // A fitted plane is as exact as its input, not as the formulas.
   look.of<Refraction>().off_frame = Refraction::OffFrame::kShorten;
+  look.of<Caustics>().sunlight = Caustics::Sunlight::kStraight;
   return look;
 }
 
