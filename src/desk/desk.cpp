@@ -167,7 +167,7 @@ const DeskLook& Desk::look_named(const std::string& word) const {
 
 Look Desk::look_of(const DeskChoice& choice) const {
   Look look = look_named(choice.look).look;
-  for (const std::string& setting : choice.settings) apply_setting(look, setting);
+  apply_settings(look, choice.settings);
   return look;
 }
 

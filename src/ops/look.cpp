@@ -51,6 +51,14 @@ bool holds(const Condition& condition, const std::vector<Parameter>& all, const 
          condition.holds(to_string(other->value), number ? std::get<double>(number->value) : 0);
 }
 
+/// The first condition because of which a parameter has no effect, or null.
+const Condition* unmet(const std::vector<Parameter>& all, const Parameter& p) {
+  for (const Condition& condition : p.used_when) {
+    if (!holds(condition, all, p)) return &condition;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 std::span<const Field<Water>> Water::fields() { return kWaterFields; }
@@ -100,16 +108,29 @@ std::vector<std::string> unread_settings(const Look& look) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Parameter& p = all[i];
     if (p.value == defaults[i].value) continue;
-    for (const Condition& condition : p.used_when) {
-      if (holds(condition, all, p)) continue;
-      const Parameter* other = beside(all, p, condition.key);
-      sentences.push_back(std::string(p.table) + "." + std::string(p.name) + " = " +
-                          to_string(p.value) + " changes nothing: " + std::string(other->name) +
-                          " is " + to_string(other->value) + ", expected " + to_string(condition));
-      break;
-    }
+    const Condition* condition = unmet(all, p);
+    if (!condition) continue;
+    const Parameter* other = beside(all, p, condition->key);
+    sentences.push_back(std::string(p.table) + "." + std::string(p.name) + " = " +
+                        to_string(p.value) + " changes nothing: " + std::string(other->name) +
+                        " is " + to_string(other->value) + ", expected " + to_string(*condition));
   }
   return sentences;
+}
+
+void forget_unread(Look& look, const Look& base) {
+  const std::vector<Parameter> all = parameters(look), before = parameters(base);
+  const std::vector<Parameter> defaults = parameters(Look{});
+  std::size_t i = 0;
+  for_each_table(look, [&](std::string_view, auto fields, auto& params) {
+    for (const auto& field : fields) {
+      const bool kept = all[i].value == before[i].value;
+      if (kept && unmet(all, all[i]) && !unmet(before, before[i])) {
+        field.set(params, defaults[i].value);
+      }
+      ++i;
+    }
+  });
 }
 
 std::string to_toml(const Look& look) {

@@ -107,7 +107,7 @@ Size size_named(const std::string& text, int least, int most) {
 
 Look look_of(const WaterOptions& a) {
   Look look = look_for(a.look);
-  for (const std::string& setting : a.settings) apply_setting(look, setting);
+  apply_settings(look, a.settings);
   return look;
 }
 

@@ -63,6 +63,11 @@ std::vector<Parameter> parameters(const Look& look);
 /// one (FieldInfo::used_when).
 std::vector<std::string> unread_settings(const Look& look);
 
+/// Sets those parameters to their defaults that have no effect in `look`, but have one in `base`,
+/// at the same value: for a look made of `base` by changes, of which unread_settings() then speaks
+/// alone. No effect changes.
+void forget_unread(Look& look, const Look& base);
+
 /// The look as a TOML text that reads back as the same look.
 std::string to_toml(const Look& look);
 

@@ -149,4 +149,14 @@ void apply_setting(Look& look, std::string_view setting) {
   resolve_files(look, fs::current_path());
 }
 
+void apply_settings(Look& look, std::span<const std::string> settings) {
+  const Look base = look;
+  const auto apply = [&] {
+    for (const std::string& setting : settings) apply_setting(look, setting);
+  };
+  apply();
+  forget_unread(look, base);
+  apply();  // a setting that repeats a value of the look is no value of the look alone
+}
+
 }  // namespace limpid

@@ -326,6 +326,29 @@ TEST(ApplySetting, TakesNumbersColorsWordsAndTexts) {
   EXPECT_EQ(look.of<WaveNormals>().map, "");
 }
 
+// A look with a map, then without waves of a map: the map is not the settings' fault, unless a
+// setting names it.
+TEST(ApplySettings, ForgetsWhatTheyLeaveUnread) {
+  Look base;
+  base.of<WaveNormals>().map = "/maps/waves.png";
+  base.of<WaveNormals>().tile_size = 7;
+  base.of<PrismSplit>().gain = 2;
+  Look look = base;
+  apply_settings(look, std::vector<std::string>{"wave_normals.model=sines", "prism_split.gain=3"});
+  EXPECT_EQ(look.of<WaveNormals>().map, "");
+  EXPECT_EQ(look.of<WaveNormals>().tile_size, 4);
+  EXPECT_EQ(look.of<PrismSplit>().gain, 3);
+  EXPECT_EQ(unread_settings(look), std::vector<std::string>{});
+  look = base;
+  apply_settings(look,
+                 std::vector<std::string>{"wave_normals.model=sines", "wave_normals.map=/a.png"});
+  EXPECT_EQ(unread_settings(look).size(), 1u);
+  base.of<WaveNormals>().model = WaveNormals::Model::kSines;  // the look itself is at fault
+  look = base;
+  apply_settings(look, std::vector<std::string>{"prism_split.gain=3"});
+  EXPECT_EQ(unread_settings(look).size(), 2u);
+}
+
 /// As TOML has them, or without the digit that it asks for.
 TEST(ApplySetting, NumbersNeedNoDigitBesideThePointAndMayBeginWithZeros) {
   const std::pair<const char*, double> cases[] = {

@@ -38,4 +38,8 @@ std::vector<std::string> look_names(std::span<const std::filesystem::path> folde
 /// and then leaves `look` unchanged.
 void apply_setting(Look& look, std::string_view setting);
 
+/// Applies settings in order. What they leave without effect of the look itself becomes default
+/// (forget_unread): a look with a map and the setting `wave_normals.model=sines` has no map.
+void apply_settings(Look& look, std::span<const std::string> settings);
+
 }  // namespace limpid
