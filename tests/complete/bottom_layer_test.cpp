@@ -126,6 +126,7 @@ TEST(BottomLayer, ThingsAreThickAsTheyAreWide) {
   }
 }
 
+// Also if only the shadow tells of the sun's light.
 TEST(BottomLayer, OfAKnownSunIsThatOfASunlitBottom) {
   constexpr std::array kOverRest{4.0, 2.0, 1.0};
   Hidden hidden({40, 44, 52, 56});
@@ -149,11 +150,17 @@ TEST(BottomLayer, OfAKnownSunIsThatOfASunlitBottom) {
   EXPECT_FALSE(hidden.made(maker)->lit);
   const BottomLayer* shaded = hidden.made(maker);
   EXPECT_LT(at_pixel(*shaded, shaded->colors.channels[0], 20, 50), 0.25);
-  const BottomLayer* layer = hidden.made(maker, 1, kOverRest);
-  EXPECT_TRUE(layer->lit);
-  for (int x = 4; x < 80; x += 3) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      EXPECT_NEAR(at_pixel(*layer, layer->colors.channels[c], x, 50), 0.5, 0.02) << x << " " << c;
+  for (const bool known : {true, false}) {
+    for (int c = 0; !known && c < 3; ++c) {
+      hidden.pool.buffers.frame.planes[index_of(plane_after(PlaneId::kSunColorR, c))] = {};
+    }
+    const BottomLayer* layer = hidden.made(maker, 1, kOverRest);
+    EXPECT_TRUE(layer->lit);
+    for (int x = 4; x < 80; x += 3) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(at_pixel(*layer, layer->colors.channels[c], x, 50), 0.5, 0.02)
+            << x << " " << c << " " << known;
+      }
     }
   }
   hidden.pool.buffers.set(
@@ -315,12 +322,13 @@ TEST(BottomLayer, ARayFromBottomToBottomEndsBehindWhatStandsInTheWater) {
 }
 
 // Sunlight from the right, unrefracted 1.5 to the left on its way to the bottom, refracted 1; no
-// sunlight enters at x < 0.
+// sunlight enters at x < 0. Its strength is that of sun_color, or of the shadow's edge.
 TEST(BottomLayer, ShadowsOfTheWaterFallOnTheBottomBehindAnObject) {
   constexpr double kRest = 0.2, kSun = 0.3;
   Hidden hidden({20, 40, 44, 60}, 0.7);
   hidden.pool.rise = 0;
   hidden.pool.scene.sun = Sun{.direction = {0.6, 0.8, 0}};
+  hidden.pool.scene.sky = {{0.8 * kRest / kSun, 0.8 * kRest / kSun, 0.8 * kRest / kSun}};
   test::Buffers& buffers = hidden.pool.buffers;
   const auto lit = [&](int x, int y) {
     const double at = (hidden.pool.dry_depth(x, y) * hidden.pool.ray(x, y)).x;
@@ -344,22 +352,27 @@ TEST(BottomLayer, ShadowsOfTheWaterFallOnTheBottomBehindAnObject) {
   });
   Look look = rays();
   look.of<Caustics>() = {};
-  const test::Picture wet = test::reference(look, buffers.frame, hidden.pool.scene);
-  int dark = 0, bright = 0;
-  for (int y = 20; y < Pool::kSize.height; ++y) {
-    for (int x = 0; x < Pool::kSize.width; ++x) {
-      const auto end = hidden.pool.end(x, y);
-      const bool inside = end.x > 21 && end.x < 42 && end.y > 41 && end.y < 58;
-      if (hidden.hides(x, y) || !inside || wet.aov(Aov::kConfidence, x, y) > 0) continue;
-      if (std::abs(end.at.x + 1.008) < 0.15) continue;
-      const bool shaded = end.at.x < -1;
-      (shaded ? dark : bright) += 1;
-      EXPECT_NEAR(wet.aov(Aov::kTransmitted, x, y), kRest + (shaded ? 0 : kSun), 0.06)
-          << x << ", " << y << ": " << end.at.x;
+  for (const bool known : {true, false}) {
+    for (int c = 0; !known && c < 3; ++c) {
+      buffers.frame.planes[index_of(plane_after(PlaneId::kSunColorR, c))] = {};
     }
+    const test::Picture wet = test::reference(look, buffers.frame, hidden.pool.scene);
+    int dark = 0, bright = 0;
+    for (int y = 20; y < Pool::kSize.height; ++y) {
+      for (int x = 0; x < Pool::kSize.width; ++x) {
+        const auto end = hidden.pool.end(x, y);
+        const bool inside = end.x > 21 && end.x < 42 && end.y > 41 && end.y < 58;
+        if (hidden.hides(x, y) || !inside || wet.aov(Aov::kConfidence, x, y) > 0) continue;
+        if (std::abs(end.at.x + 1.008) < 0.15) continue;
+        const bool shaded = end.at.x < -1;
+        (shaded ? dark : bright) += 1;
+        EXPECT_NEAR(wet.aov(Aov::kTransmitted, x, y), kRest + (shaded ? 0 : kSun), 0.06)
+            << x << ", " << y << ": " << end.at.x << " " << known;
+      }
+    }
+    EXPECT_GT(dark, 5);
+    EXPECT_GT(bright, 5);
   }
-  EXPECT_GT(dark, 5);
-  EXPECT_GT(bright, 5);
 }
 
 TEST(BottomLayer, NothingOfAPostIsDraggedAlong) {
