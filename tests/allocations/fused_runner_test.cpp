@@ -70,6 +70,28 @@ TEST(Allocations, NoneForWaterThatWavesRaise) {
   EXPECT_EQ(test::allocations(), before);
 }
 
+/// Nor for shadows that tell of the sun's light, and waves that only normals tell, however many
+/// edges they have: there are none in the first frame.
+TEST(Allocations, NoneForWhatALaterFrameTells) {
+  const Size size{301, 77};
+  Buffers b = test::noisy_frame(rect_of(size));
+  for (int c = 0; c < 3; ++c) b.frame.planes[index_of(plane_after(PlaneId::kSunColorR, c))] = {};
+  b.fill(PlaneId::kDepth, 16).fill(PlaneId::kShadow, 1);
+  const Scene scene = test::simple_scene(size);
+  Look look;
+  look.of<WaveNormals>().filter = WaveNormals::Filter::kVariance;
+  const test::Picture picture(b.frame.work());
+  const Plan plan = make_plan(look, test::inputs_of(b.frame, scene));
+  ASSERT_EQ(plan.look.of<Caustics>().sunlight, Caustics::Sunlight::kRefracted);
+  const auto executor = make_executor(2);
+  FusedRunner runner;
+  runner.run(plan, b.frame, scene, picture.target, *executor);
+  b.set(PlaneId::kShadow, [](int x, int y) { return (x + y) % 8 < 4 ? 1.0f : 0.0f; });
+  const int before = test::allocations();
+  runner.run(plan, b.frame, scene, picture.target, *executor);
+  EXPECT_EQ(test::allocations(), before);
+}
+
 /// A smaller frame fits into the memory of a larger frame.
 TEST(Allocations, NoneForASmallerFrame) {
   FusedRunner runner;
