@@ -149,7 +149,9 @@ void Completer::complete_surface(PlaneSet made, const Pass& pass, Executor& exec
 void Completer::complete_sky(PlaneSet made, const Plan& plan, const Pass& pass, Executor& executor,
                              Frame& frame) {
   if (made.empty()) return;
-  if (!sky_.make(frame, executor)) {
+  if (sky_.make(frame, executor)) {
+    frame.sky_slope = sky_slope(frame, pass);
+  } else {
     const auto known = known_sky(plan.look.of<FresnelReflection>(), pass);
     sky_.make_even(frame, known ? *known : guessed_sky(frame), executor);
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "complete/rows.h"
 
 namespace limpid {
@@ -72,6 +74,49 @@ void Sky::resize(const Rect& window) {
   for (Plane& plane : color_) {
     if (!plane || plane.view().window != window) plane = Plane(window);
   }
+}
+
+Rgb<double> sky_slope(const Frame& frame, const Pass& pass) {
+  constexpr int kMost = 256;
+  const Picture picture(frame);
+  const Rect& window = picture.window;
+  const int step_x = std::max(1, window.width() / kMost);
+  const int step_y = std::max(1, window.height() / kMost);
+  double count = 0, sine_sum = 0, sine_squares = 0;
+  std::array<double, 3> sums{}, squares{}, products{};
+  for (int y = window.y0; y < window.y1; y += step_y) {
+    for (int x = window.x0; x < window.x1; x += step_x) {
+      if (!picture.is_sky(x, y)) continue;
+      const glm::dvec3 view = pass.rays.ray_at(x - pass.corner.x + 0.5, y - pass.corner.y + 0.5);
+      const double sine = glm::dot(pass.up, glm::normalize(view));
+      std::array<double, 3> logs;
+      bool shines = sine > 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double color = picture.color[i].at(x, y);
+        shines = shines && color > 0 && color < HUGE_VAL;
+        logs[i] = shines ? std::log(color) : 0;
+      }
+      if (!shines) continue;
+      count += 1, sine_sum += sine, sine_squares += sine * sine;
+      for (std::size_t i = 0; i < 3; ++i) {
+        sums[i] += logs[i], squares[i] += logs[i] * logs[i], products[i] += sine * logs[i];
+      }
+    }
+  }
+  // Below this, rows of one elevation differ by rounding alone.
+  constexpr double kLeastVariance = 1e-8;
+  const double variance = sine_squares - sine_sum * sine_sum / std::max(count, 1.0);
+  if (!(variance > kLeastVariance * count)) return {0, 0, 0};
+  const auto slope_of = [&](std::size_t i) {
+    const double covariance = products[i] - sine_sum * sums[i] / count;
+    const double whole = squares[i] - sums[i] * sums[i] / count;
+    const double slope = covariance / variance;
+    const double explained = whole > 0 ? std::min(covariance * slope / whole, 1.0) : 0;
+    return std::clamp(slope * explained, -kMostSkySlope, kMostSkySlope);
+  };
+  const double r = slope_of(0), g = slope_of(1), b = slope_of(2);
+  const double common = std::max(std::min({r, g, b}), 0.0);
+  return {std::min(r, common), std::min(g, common), std::min(b, common)};
 }
 
 bool shows_sky(const Frame& frame) {

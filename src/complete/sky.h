@@ -30,6 +30,15 @@ class Sky {
   PullPush<3> sky_;
 };
 
+/// How the sky that a frame shows changes with elevation: the change of the logarithm of radiance
+/// per sine of elevation, for red, green and blue, by least squares over some hundred rows and
+/// columns. Each is multiplied by the share of the variance that it explains, so that clouds count
+/// for little, and at most kMostSkySlope. A color brightens only as far as all three do, as under
+/// clouds: blue that grows over a hazy horizon soon falls again. 0 if the frame shows no sky, or
+/// one elevation of it.
+Rgb<double> sky_slope(const Frame& frame, const Pass& pass);
+constexpr double kMostSkySlope = 4;
+
 /// Whether the frame shows sky, by color and depth.
 bool shows_sky(const Frame& frame);
 

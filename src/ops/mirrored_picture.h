@@ -242,14 +242,37 @@ struct MirroredPicture : FresnelReflection {
     return beyond;
   }
 
+  /// The planes of the sky. Beyond their edge the sky goes on to change with elevation as the
+  /// visible sky does, less and less: clear skies darken and overcast ones brighten towards the
+  /// zenith, most of it in the lowest 30 degrees (CIE S 011:2003, "Spatial Distribution of Daylight
+  /// - CIE Standard General Sky").
+  template <class F, class Tap>
+  static Rgb<F> sky(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
+                    const ScreenRay<F>& ray) {
+    constexpr double kSettles = 0.35;  // sine of elevation
+    const Vec2<F> end = ray.shift_at(F(HUGE_VAL)), at = next_to(c, p, end);
+    Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kSkyR, end);
+    const auto beyond = abs(end.x - at.x) + abs(end.y - at.y) > F(0);
+    if_any(beyond, [&] {
+      const Vec3<F> up = vec3_of<F>(c.up), edge = ray_gain(c, at) - p.ray_length * p.to_viewer;
+      const F rise = dot(up, mirrored_ray(c, p, n)) - dot(up, edge) / sqrt(dot(edge, edge));
+      const F gained = F(kSettles) * (F(1) - exp(F(-1 / kSettles) * max(rise, F(0))));
+      const auto on = [&](double slope, int i, F light) {
+        const F changed = light * exp(gained * given<F>(slope, "sky.slope", i));
+        return select(beyond, changed, light);
+      };
+      seen = {on(c.sky_slope.r, 0, seen.r), on(c.sky_slope.g, 1, seen.g),
+              on(c.sky_slope.b, 2, seen.b)};
+    });
+    return seen;
+  }
+
   /// The surroundings of the frame, or else of the look.
   template <class F, class Tap>
   static Rgb<F> far_away(const Params& params, const Pass& c, const Pixel<F>& p, const Tap& tap,
                          Vec3<F> n, const ScreenRay<F>& ray) {
     if (c.environment) return surroundings(c, p, tap, n);
-    const Rgb<F> far = c.planes.covers(kSkyPlanes)
-                           ? bilinear_rgb<F>(tap, PlaneId::kSkyR, ray.shift_at(F(HUGE_VAL)))
-                           : constant<F>(params);
+    const Rgb<F> far = c.planes.covers(kSkyPlanes) ? sky(c, p, tap, n, ray) : constant<F>(params);
     return through_water<false>(c, p, tap, mirrored_ray(c, p, n), F(HUGE_VAL), far, {F(0), F(0)});
   }
 };

@@ -30,7 +30,8 @@ constexpr CompleterInfo kCompleters[] = {
      kSkyPlanes,
      {},
      {},
-     "The sky of the frame, continued behind the objects that hide it; without a visible sky the "
+     "The sky of the frame, continued behind the objects that hide it, and above the picture as "
+     "it changes with elevation; without a visible sky the "
      "sky of the scene, or a gray of twice the frame's brightness."},
 };
 

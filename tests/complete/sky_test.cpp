@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "support.h"
@@ -94,6 +95,97 @@ TEST(Sky, OfOneColorReplacesASkyThatIsNotSeen) {
     EXPECT_EQ(horizon.at(1, x, y), 0.5f);
     EXPECT_EQ(horizon.at(2, x, y), 1.0f);
   }
+}
+
+// --- beyond the picture --------------------------------------------------------------------------
+
+constexpr Size kView{64, 72};
+
+/// A camera two metres above calm water, 15 degrees down, under a sky whose logarithm falls with
+/// the sine of elevation, of red and of the other colors.
+struct Evening {
+  test::Buffers buffers{rect_of(kView)};
+  Scene scene = test::simple_scene(kView);
+  double fall = 3, other = 0;
+
+  Evening() {
+    scene.camera->view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 2 - std::tan(0.2618), -1),
+                                     glm::dvec3(0, 1, 0));
+    draw([](int, int) { return 0.0; });
+  }
+  glm::dvec3 ray(double x, double y) const {
+    return glm::normalize(rays_of(*scene.camera, {kView.width, kView.height}).ray_at(x, y));
+  }
+  template <class Clouds>
+  void draw(Clouds&& clouds) {
+    for (int c = 0; c < 3; ++c) {
+      buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+        const double sine = ray(x + 0.5, y + 0.5).y, of_channel = c == 0 ? fall : other;
+        return static_cast<float>(
+            sine > 0 ? std::exp(-of_channel * sine + (c == 0 ? clouds(x, y) : 0)) : 0.5);
+      });
+    }
+    buffers.set(PlaneId::kDepth, [&](int x, int y) {
+      const auto rays = rays_of(*scene.camera, {kView.width, kView.height});
+      const double rise = rays.ray_at(x + 0.5, y + 0.5).y;
+      return rise < 0 ? static_cast<float>(-4 / rise) : kInf;
+    });
+  }
+  Rgb<double> slope() const {
+    return sky_slope(buffers.frame, Pass(scene, buffers.frame, 1.333, {}));
+  }
+};
+
+TEST(Sky, TellsHowItChangesWithElevation) {
+  Evening evening;
+  EXPECT_NEAR(evening.slope().r, -3, 1e-4);
+  EXPECT_EQ(evening.slope().g, 0);
+  // Brighter higher up: only as far as all colors are.
+  evening.fall = -2;
+  evening.draw([](int, int) { return 0.0; });
+  EXPECT_NEAR(evening.slope().r, 0, 1e-4);
+  evening.other = -1;
+  evening.draw([](int, int) { return 0.0; });
+  EXPECT_NEAR(evening.slope().r, 1, 1e-4);
+  EXPECT_NEAR(evening.slope().b, 1, 1e-4);
+  evening.fall = 30, evening.other = 0;
+  evening.draw([](int, int) { return 0.0; });
+  EXPECT_EQ(evening.slope().r, -kMostSkySlope);
+  // Clouds from one pixel to the next: little is known.
+  evening.fall = 1;
+  evening.draw([](int x, int y) { return (x + y) % 2; });
+  EXPECT_NEAR(evening.slope().r, 0, 0.1);
+  // Surfaces, and what is black or no number, tell nothing.
+  evening.buffers.fill(PlaneId::kColorR, 0);
+  EXPECT_EQ(evening.slope().r, 0);
+  evening.buffers.fill(PlaneId::kColorR, std::nanf(""));
+  EXPECT_EQ(evening.slope().r, 0);
+  evening.draw([](int, int) { return 0.0; });
+  evening.buffers.fill(PlaneId::kDepth, 5);
+  EXPECT_EQ(evening.slope().r, 0);
+}
+
+TEST(Sky, GoesOnToChangeAboveThePicture) {
+  Evening evening;
+  Look look = test::still_look();
+  FresnelReflection::Params& mirror = look.of<FresnelReflection>();
+  mirror.reflectance = FresnelReflection::Reflectance::kRim, mirror.power = 0;
+  mirror.lookup = FresnelReflection::Lookup::kRay;
+  mirror.source = FresnelReflection::Source::kAuto;
+  const test::Picture wet = test::reference(look, evening.buffers.frame, evening.scene);
+  const int x = kView.width / 2;
+  const double edge = evening.ray(x + 0.5, 0).y;
+  int above = 0;
+  for (int y = 0; y < kView.height; ++y) {
+    const double sine = -evening.ray(x + 0.5, y + 0.5).y;
+    if (sine < 0.02) continue;
+    const double beyond = std::max(sine - edge, 0.0);
+    const double exponent = -3 * (std::min(sine, edge) + 0.35 * (1 - std::exp(-beyond / 0.35)));
+    EXPECT_NEAR(wet.aov(Aov::kReflected, x, y), std::exp(exponent), 0.02) << y;
+    EXPECT_NEAR(wet.aov(Aov::kReflected, x, y, 1), 1, 1e-3) << y;
+    if (beyond > 0.1) ++above;
+  }
+  EXPECT_GT(above, 10);
 }
 
 TEST(Sky, IsGuessedFromTheBrightnessOfTheGround) {

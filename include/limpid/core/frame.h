@@ -168,6 +168,9 @@ struct Frame {
   /// The mean radiance of the environment above the horizon, weighted by the cosine with the
   /// water's up; absent if no operator needs it.
   std::optional<Rgb<double>> sky_radiance;
+  /// How the planes of the sky go on beyond their edge: the change of the logarithm of radiance per
+  /// sine of elevation there. 0, or made by complete/.
+  Rgb<double> sky_slope{0, 0, 0};
   /// The bottom beyond the picture; null, or made by complete/.
   const Continuation* continuation = nullptr;
   /// The bottom behind the objects in front of it; null, or made by complete/.
