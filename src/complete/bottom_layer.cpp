@@ -19,8 +19,8 @@ constexpr int kLooks = 2;          ///< lookups across a cell, and down
 /// The widest window of the closing reaches this share of the cells to each side.
 constexpr int kReachShare = 8;
 constexpr float kOfBottom = BottomLayer::kOfBottom;
-/// Weight of a cell that is not all bottom: its edges have mixed colors. Also of walls, surfaces
-/// steeper than 45 degrees, in a layer that is relit: they do not go on behind what stands before
+/// Weight of a cell that is not all bottom: its edges have mixed colors. Also of the feet of
+/// objects, and of walls in a layer that is relit: they do not go on behind what stands before
 /// them, as a bottom does. Else the dim light on walls stands for the shade on hidden bottom.
 constexpr float kMixed = 1e-3f;
 constexpr double kLevel = 0.7;  ///< cosine of the steepest bottom
@@ -31,9 +31,6 @@ constexpr double kMostSun = 20;
 /// before, and by this share.
 constexpr float kStep = 3, kSmooth = 0.002f;
 
-/// Thickness of an object behind its visible side, as a share of its width: a ray that goes behind
-/// it passes the outline, where a round object is thinnest.
-constexpr float kThickness = 0.25f;
 /// The least share of a window that an object is assumed to cover.
 constexpr float kThinnest = 0.05f;
 
@@ -240,6 +237,48 @@ bool BottomLayerMaker::find_standing(Size cells) {
   return stands;
 }
 
+/// Tells walls, surfaces steeper than 45 degrees, and the feet of objects: the walls that lead from
+/// an object down to the bottom.
+void BottomLayerMaker::find_walls(const Scan& scan, Executor& executor) {
+  const Size size = scan.cells;
+  walls_.assign(cells_.size(), Wall::kNone);
+  each_row(executor, {0, 0, size.width, size.height}, [&](int row) {
+    for (int column = 0; column < size.width; ++column) {
+      const Cell& cell = cells_[scan.index(column, row)];
+      const bool whole = cell.highest >= cell.bottom && cell.highest < kNone;
+      if (whole && !scan.is_level(column, row)) walls_[scan.index(column, row)] = Wall::kWall;
+    }
+  });
+  open_.clear();
+  open_.reserve(cells_.size());
+  // Down the same surface: depth changes little along a wall.
+  constexpr float kWidths = 3;
+  const auto leads_to = [&](const Cell& from, const Cell& to) {
+    const float apart = std::abs(1 / from.nearness - 1 / to.nearness);
+    return to.highest >= from.highest && apart <= kWidths * to.width;
+  };
+  const auto spread_from = [&](std::size_t from) {
+    const int column = static_cast<int>(from % size.width),
+              row = static_cast<int>(from / size.width);
+    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, size.height - 1); ++y) {
+      for (int x = std::max(column - 1, 0); x <= std::min(column + 1, size.width - 1); ++x) {
+        const std::size_t to = scan.index(x, y);
+        if (walls_[to] != Wall::kWall || !leads_to(cells_[from], cells_[to])) continue;
+        walls_[to] = Wall::kFoot;
+        open_.push_back(to);
+      }
+    }
+  };
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i].window > 0) spread_from(i);
+  }
+  while (!open_.empty()) {
+    const std::size_t next = open_.back();
+    open_.pop_back();
+    spread_from(next);
+  }
+}
+
 /// Whether the bottom beside a cell of land continues into that cell: then the bottom ends there,
 /// and does not continue behind it.
 bool BottomLayerMaker::is_shore(Size cells, int column, int row) const {
@@ -283,7 +322,8 @@ bool BottomLayerMaker::fill(const Scan& scan, Executor& executor) {
       if (!(texel[4] > 0)) continue;
       for (std::size_t i = 0; i < 4; ++i) texel[i] /= texel[4];
       const bool whole = cells[column].highest >= cells[column].bottom;
-      const bool bottom = whole && (!scan.relights || scan.is_level(column, row));
+      const Wall wall = walls_[scan.index(column, row)];
+      const bool bottom = whole && (scan.relights ? wall == Wall::kNone : wall != Wall::kFoot);
       texel[4] = bottom ? 1 : kMixed;
     }
   });
@@ -314,7 +354,8 @@ float BottomLayerMaker::thinness_at(Size size, int column, int row) const {
     each_near(size, column, row, [&](const Cell& cell) { sum += cell.standing, count += 1; });
     standing = std::max(sum / count, kThinnest);
   }
-  return 1 / (kThickness * standing * static_cast<float>(own.window) * own.width);
+  return 1 / (static_cast<float>(BottomLayer::kThickness) * standing *
+              static_cast<float>(own.window) * own.width);
 }
 
 const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Pass& pass,
@@ -323,7 +364,9 @@ const BottomLayer* BottomLayerMaker::make(const Frame& frame, const Pass& pass,
   if (!(pass.eye_above > 0) || pass.submersible) return nullptr;
   const Scan scan(frame, pass, sun_over_rest);
   survey(scan, executor);
-  if (!find_standing(scan.cells) || !fill(scan, executor)) return nullptr;
+  if (!find_standing(scan.cells)) return nullptr;
+  find_walls(scan, executor);
+  if (!fill(scan, executor)) return nullptr;
   layer_.lit = scan.relights;
   const Rect window{0, 0, scan.cells.width, scan.cells.height};
   const bool ends = find_end(scan.cells, executor);

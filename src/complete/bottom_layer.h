@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "limpid/core/executor.h"
@@ -18,8 +19,9 @@ namespace limpid {
 /// closing of the depth below the water (Serra 1982, "Image Analysis and Mathematical Morphology"),
 /// by windows of three cells to a quarter of the picture, fills the cells of objects that stand on
 /// the bottom. The smallest window that fills an object gives its width, and a quarter of the width
-/// counts as its thickness. A pyramid of means then extends the bottom over these cells and those
-/// of objects above the water, and in the same way the share of water without a bottom.
+/// counts as its thickness. Walls that lead down from an object are its feet, and no bottom. A
+/// pyramid of means then extends the bottom over these cells and those of objects above the water,
+/// and in the same way the share of water without a bottom.
 class BottomLayerMaker {
  public:
   /// Null where no object stands in front of the bottom, no bottom is visible, or the eye is in the
@@ -44,9 +46,11 @@ class BottomLayerMaker {
     float thinness;         ///< 1 / thickness of the object, 0 without an object
   };
   struct Scan;
+  enum class Wall : std::uint8_t { kNone, kWall, kFoot };
 
   void survey(const Scan& scan, Executor& executor);
   bool find_standing(Size cells);
+  void find_walls(const Scan& scan, Executor& executor);
   bool is_shore(Size cells, int column, int row) const;
   bool fill(const Scan& scan, Executor& executor);
   bool find_end(Size cells, Executor& executor);
@@ -58,6 +62,8 @@ class BottomLayerMaker {
   PullPush<4> bottom_;  ///< color and depth below the calm surface
   PullPush<1> end_;     ///< share of water without a bottom
   std::vector<Cell> cells_;
+  std::vector<Wall> walls_;
+  std::vector<std::size_t> open_;  ///< cells whose neighbours are not looked at yet
   std::vector<float> dilated_, closed_, room_;
   std::array<Plane, 6> planes_;  ///< color, depth below the calm surface, thinness, end_
 };

@@ -15,6 +15,9 @@ namespace limpid {
 struct BottomLayer {
   /// A surface at this share of the depth around it, or deeper, belongs to the bottom.
   static constexpr double kOfBottom = 0.75;
+  /// Thickness of an object behind its visible side, as a share of its width: a ray that goes
+  /// behind it passes the outline, where a round object is thinnest.
+  static constexpr double kThickness = 0.25;
 
   Texture colors;
   /// Red: depth of the bottom below the calm surface, in scene units. Green: more than half where
@@ -66,6 +69,14 @@ class BottomLayerTaps {
       return apart < F(0.5);
     });
     return apart > F(0.5);
+  }
+  /// Whether the surface that the pixel shows lies farther behind the object at `shift` than that
+  /// object is wide, on its narrower side: then the two are different objects, and the bottom goes
+  /// on between them.
+  auto is_far_behind(const Pass& c, const SeenPlanes& planes, Vec2<F> shift) const {
+    const F depth = tap_.nearest(planes.depth, shift), gap = min(p_.dry_depth, F(1e30)) - depth;
+    const auto is_object = !is_bottom(shift, F(0) - height_at(c, p_, shift, depth));
+    return is_object && F(BottomLayer::kThickness) * gap * shape(shift).thinness > F(1);
   }
   Rgb<F> color(Vec2<F> shift) const { return tap_.lat_long_rgb(layer_.colors, place(shift)); }
 

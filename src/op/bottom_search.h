@@ -38,9 +38,17 @@ class BottomSearch {
         expected_(expected) {}
 
   /// k fixed-point steps: each takes the depth of the bottom from the end of the ray that the step
-  /// before found; the first takes the depth at the pixel itself.
+  /// before found; the first takes the depth at the pixel itself. If the last two steps lead back
+  /// and forth, the bottom is met between their ends, by a secant.
   Found iterate(int steps) const {
-    const F distance = iterated(drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_, steps);
+    F distance = drop_to(Vec2<F>{F(0), F(0)}, p_.dry_depth) / fall_, last = distance, first = last;
+    repeat<F>(steps, [&] {
+      first = last, last = distance;
+      distance = to_level(distance);
+    });
+    const F there = last - first, back = distance - last;
+    const auto returns = there * back < F(0) && max(max(first, last), distance) < F(1e20);
+    distance = select(returns, first + there * (there / (there - back)), distance);
     const auto meets = distance < F(1e20);
     // From below, an endless ray meets the sky, which is visible.
     return {select(meets, distance, F(HUGE_VAL)), select(meets || p_.side < F(0), F(1), F(0))};
@@ -301,7 +309,8 @@ class BottomSearch {
       const auto empty = planes_.below ? !(shown < F(1e30)) : F(0) > F(0);
       const auto goes_on = empty || stands_at(there, shown);
       const auto itself =
-          look(beyond).drop > F(0) || !layer.is_apart(c_, planes_, ray_.shift_at(beyond));
+          (look(beyond).drop > F(0) || !layer.is_apart(c_, planes_, ray_.shift_at(beyond))) &&
+          !layer.is_far_behind(c_, planes_, ray_.shift_at(behind));
       ends = select(stands && goes_on && itself, own_level, ends);
     });
     return ends;

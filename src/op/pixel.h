@@ -44,7 +44,8 @@ struct Pixel {
   /// shows another surface, and whether it is known, 0 ... 1; begins as 1, not known. Refraction
   /// knows the share of it that BottomLayer::lit fills in.
   F dry_lit, dry_lit_known;
-  Rgb<F> dry_sun;     ///< the sun's light alone where the channels are looked up; set by Caustics
+  F filled;        ///< share of `transmitted` from Pass::bottom_layer, by Refraction; begins as 0
+  Rgb<F> dry_sun;  ///< the sun's light alone where the channels are looked up; set by Caustics
   Rgb<F> in_scatter;  ///< begins as 0, as do all members below
   /// Sunlit parts of in_scatter: the first in the shadow of the surface point, the second in that
   /// of the end of the ray.

@@ -75,7 +75,7 @@ LIMPID_INLINE void begin_state(StateSet parts, const WaterView& view, Rgb<F> dry
   if (parts.has(StatePart::kTransmitted)) p.transmitted = select(endless, black, dry_color);
   if (parts.has(StatePart::kDryBottom)) {
     p.dry_bottom = select(endless, black, dry_color);
-    p.dry_lit = F(1), p.dry_lit_known = F(0);
+    p.dry_lit = F(1), p.dry_lit_known = p.filled = F(0);
   }
   if (parts.has(StatePart::kInScatter)) p.in_scatter = black;
   if (parts.has(StatePart::kSunScatter)) p.sun_near = p.sun_far = p.sun_multiple = black;

@@ -4,6 +4,7 @@
 #include "limpid/ops/caustics.h"
 
 #include "op/bilinear.h"
+#include "op/bottom_layer.h"
 #include "op/caustics_table.h"
 #include "op/operator.h"
 #include "op/screen_ray.h"
@@ -119,10 +120,13 @@ struct Kernel<Caustics> : Caustics {
                          dot(map_y, end) + aside * sunwards.y};
         };
         // The shadow plane shows the object that hides a place of the layer below, or of the bottom
-        // that is filled in, in the share `filled`, as lit by the sun.
+        // that is filled in, in the share `filled`.
         const F dry =
             planes.below ? bilinear_depth<F>(tap, PlaneId::kDepth, tap.quad(p.shift)) : p.hit_depth;
-        const F filled = p.dry_lit_known, mixed = saturate(F(8) * filled);
+        const F filled = p.filled, mixed = saturate(F(8) * filled);
+        // On a layer that is not lit no shadow moves.
+        const bool in_sun_alone = c.bottom_layer && c.bottom_layer->lit;
+        const F in_sun = in_sun_alone ? filled : F(0);
         const auto hidden = dry < F(kSameDepth) * p.hit_depth;
         const F of_plane = shadowed ? bilinear<F>(tap, PlaneId::kShadow, p.shift) : F(1);
         const F lit = select(hidden, F(1), of_plane);
@@ -132,8 +136,10 @@ struct Kernel<Caustics> : Caustics {
               lit_bottom && !hidden && given<F>(table.slopes, "caustics.slopes") > F(0);
           if_any(sloped, [&] {
             const Tilt<F> own = tilt_of(c, p, tap, light, sunwards);
-            tilt = {select(sloped, filled_in(own.of_level, filled), F(1)),
-                    select(sloped, filled_in(own.gain, filled), F(1))};
+            const auto if_sloped = [&](F of_slope) {
+              return select(sloped, filled_in(of_slope, filled), F(1));
+            };
+            tilt = {if_sloped(own.of_level), if_sloped(own.gain)};
           });
         }
         const Vec3<F> end = end_of(aim);
@@ -145,10 +151,10 @@ struct Kernel<Caustics> : Caustics {
                               dot(map_y, end) + depth * per_rise * sunwards.y};
           const auto of_bottom = [&] {
             const Vec2<F> by = entry - level;
-            return shifted(c, p, tap, end + by.x * map_x + by.y * map_y, lit, hidden, filled);
+            return shifted(c, p, tap, light, end, by.x * map_x + by.y * map_y, lit, hidden, in_sun);
           };
           if (light.entries) {
-            sunlit = moved(c, p, tap, entry, level, lit, hidden, filled);
+            sunlit = moved(c, p, tap, entry, level, lit, hidden, in_sun);
             const auto unknown = lit_bottom && !hidden && sunlit.known < F(1);
             if_any(unknown, [&] {
               const F more = (F(1) - sunlit.known) * (of_bottom().arrives - sunlit.dry);
@@ -157,6 +163,12 @@ struct Kernel<Caustics> : Caustics {
           } else {
             sunlit = of_bottom();
           }
+        }
+        if (!in_sun_alone) {
+          sunlit.dry = filled_in(sunlit.dry, filled);
+          sunlit.arrives = filled_in(sunlit.arrives, filled);
+        }
+        if (light.moves) {
           p.dry_lit = select(lit_bottom, sunlit.dry, p.dry_lit);
           p.dry_lit_known = select(lit_bottom, sunlit.hidden_known, p.dry_lit_known);
         }
@@ -246,8 +258,10 @@ struct Kernel<Caustics> : Caustics {
     const F of_level = min(max(refracted, F(0)), F(kMostTilt));
     const F gain = min(of_level / max(straight, F(1e-3)), F(kMostTilt));
     const auto known = slope.known > F(0);
-    return {select(known, F(1) + slope.known * (of_level - F(1)), F(1)),
-            select(known, F(1) + slope.known * (gain - F(1)), F(1))};
+    const auto if_known = [&](F of_slope) {
+      return select(known, F(1) + slope.known * (of_slope - F(1)), F(1));
+    };
+    return {if_known(of_level), if_known(gain)};
   }
 
   template <class F>
@@ -368,19 +382,38 @@ struct Kernel<Caustics> : Caustics {
     return {dry, dry + known * (refracted.passes * below - dry), known, told};
   }
   /// Without a shadow on the surface: the shadows on the bottom where straight light through the
-  /// refracted light's entry falls, at `place`, as deep as this place. Known if the picture shows
-  /// the bottom there.
+  /// refracted light's entry falls, at the place `end + by`, which is as deep as `end`. Known if
+  /// the picture shows the bottom there, and that bottom does not shade itself: it rises towards
+  /// the sun less than kSteep times as steeply as sunlight falls.
   template <class F, class Tap, class Mask>
   static LIMPID_INLINE Sunlit<F> shifted(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                                         const Vec3<F>& place, F lit, Mask hidden, F filled) {
+                                         const Light& light, const Vec3<F>& end, const Vec3<F>& by,
+                                         F lit, Mask hidden, F filled) {
+    constexpr double kBeside = 0.25, kSteep = 0.3;
+    const Vec3<F> place = end + by;
     const ScreenRay<F> ray(c, p, place - p.surface_point);
     const Vec2<F> shift = ray.shift_at(F(1));
     const F depth = ray.depth_at(F(1));
     const F off = abs(bilinear_depth<F>(tap, PlaneId::kDepth, tap.quad(shift)) - depth);
     const F shown = saturate(F(2) - off / (F(1 - kSameDepth) * max(depth, F(1e-6))));
-    const F known = select(hidden, F(0), shown * known_at(c, p, shift));
-    const F dry = filled_in(lit, filled);
-    const F arrives = dry + known * (bilinear<F>(tap, PlaneId::kShadow, shift) - dry);
+    F known = select(hidden, F(0), shown * known_at(c, p, shift));
+    const F dry = filled_in(lit, filled), there = bilinear<F>(tap, PlaneId::kShadow, shift);
+    const auto darker = known > F(0) && there < dry;
+    if_any(darker, [&] {
+      const auto height_of = [&](Vec2<F> at) {
+        return height_at(c, p, at, bilinear_depth<F>(tap, PlaneId::kDepth, tap.quad(at)));
+      };
+      // Refraction moves light away from the sun.
+      const Vec3<F> towards = F(-kBeside) * by;
+      const F beside =
+          height_of(ScreenRay<F>(c, p, place + towards - p.surface_point).shift_at(F(1)));
+      const F steep = given<F>(kSteep * light.rise / std::max(light.sine, 1e-3), "caustics.steep");
+      const F rises = (beside - height_of(shift)) / max(steep * length(towards), F(1e-6));
+      // A caster of shade above the water tells of no slope.
+      const auto slope = darker && beside < F(0);
+      known = select(slope, known * saturate(F(2) - rises), known);
+    });
+    const F arrives = dry + known * (there - dry);
     return {dry, arrives, known, filled};
   }
   /// A value of the bottom that is shown, mixed with 1 of the bottom that is filled in.

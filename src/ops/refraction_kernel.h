@@ -17,6 +17,9 @@ struct Kernel<Refraction> : Refraction {
   /// Share of the distance from the surface to the end of snell's ray: a surface nearer than that
   /// hides the end.
   static constexpr double kShareOfPath = 0.4;
+  /// The same where that end is a guess: a nearer surface is the object that hides the end, or the
+  /// foot of that object.
+  static constexpr double kShareOfGuess = 0.92;
 
   static constexpr StateSet kUses{StatePart::kNormal, StatePart::kPrism, StatePart::kTransmitted};
   static constexpr StateSet kMakes{StatePart::kPosition, StatePart::kPath, StatePart::kDryBottom,
@@ -63,7 +66,7 @@ struct Kernel<Refraction> : Refraction {
     }
     strip.each([&](Pixel<F>& p) {
       keep_in_frame(params, planes.bounds, p);
-      p.dry_lit = F(1), p.dry_lit_known = F(0);
+      p.dry_lit = F(1), p.dry_lit_known = F(0), p.filled = F(0);
     });
     if (params.rejection == Rejection::kSnap && !planes.below && c.foreground) {
       strip.each([](Pixel<F>& p) { snap(p); });
@@ -229,6 +232,7 @@ struct Kernel<Refraction> : Refraction {
       p.transmitted = select(off, seen.color, p.transmitted);
       p.shift = select(off, seen.shift, p.shift);
       p.dry_lit_known = select(off, F(0), p.dry_lit_known);
+      p.filled = select(off, F(0), p.filled);
       p.shift_r = select(off, seen.shift, p.shift_r);
       p.shift_g = select(off, seen.shift, p.shift_g);
       p.shift_b = select(off, seen.shift, p.shift_b);
@@ -388,10 +392,8 @@ struct Kernel<Refraction> : Refraction {
     const F ray_end = min(p.hit_depth, F(1e30));
     const auto is_empty = [&](F depth) { return nothing(depth) && p.side > F(-0.5); };
     const BottomLayer* layer = params.uses_bottom_layer() ? c.bottom_layer : nullptr;
-    // Where the end of the ray is a guess, only the bottom counts.
     const F snell(params.model == Model::kSnell ? kShareOfPath : 0);
-    const F path_fraction =
-        layer ? select(p.confidence < F(1), F(BottomLayer::kOfBottom), snell) : snell;
+    const F path_fraction = layer ? select(p.confidence < F(1), F(kShareOfGuess), snell) : snell;
     // In open water only surfaces under it can hide the end of a ray.
     const bool all_seen = !layer || !any(tap.wet() && p.confidence < F(1));
     const bool all_count = all_seen && all_texels_count(c, planes, p, tap);
@@ -457,7 +459,7 @@ struct Kernel<Refraction> : Refraction {
           if_any(lanes && clear < F(0.5), [&] {
             const auto other = height_at(c, p, shift, tap.nearest(planes.depth, shift)) >= F(0) &&
                                taps.is_apart(c, planes, shift);
-            clear = select(other, F(1), clear);
+            clear = select(other || taps.is_far_behind(c, planes, shift), F(1), clear);
           });
           const auto bottom = p.side > F(0) && clear > F(0.5);
           const F calm = min(calm_depth_at(c, p, shift), ray_end);
@@ -488,9 +490,10 @@ struct Kernel<Refraction> : Refraction {
       return of_whole<kBottomless>(taps, whole);
     };
     const auto tell_light = [&](const auto& taps) {
-      if (!layer || !layer->lit) return;
+      if (!layer) return;
       const F share = of_whole<kBottomless>(taps, taps.filled);
-      p.dry_lit_known = select(taps.weight() > F(0.5), share, F(0));
+      p.filled = select(taps.weight() > F(0.5), share, F(0));
+      if (layer->lit) p.dry_lit_known = p.filled;
     };
     const PlaneId red = planes.color, green = plane_after(red, 1), blue = plane_after(red, 2);
     // Where even the pixel's own texel of the layer below is empty, the dry color stays.

@@ -321,6 +321,60 @@ TEST(BottomLayer, ARayFromBottomToBottomEndsBehindWhatStandsInTheWater) {
   }
 }
 
+// The pixel shows an object far behind the object that hides the end of its ray; bottom lies
+// between the two objects.
+TEST(BottomLayer, ARayFromAFarObjectEndsBehindANearOne) {
+  const Rect far{38, 26, 54, 46};
+  Hidden hidden({43, 44, 49, 64}, 0.7);
+  const auto is_far = [&](int x, int y) {
+    return !hidden.hides(x, y) && far.contains({x, y, x + 1, y + 1});
+  };
+  for (int c = 0; c < 3; ++c) {
+    hidden.pool.buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+      const glm::dvec3 place = hidden.pool.dry_depth(x, y) * hidden.pool.ray(x, y);
+      const bool thing = hidden.hides(x, y) || is_far(x, y);
+      return static_cast<float>(thing ? kThing : floor_color(place.x, place.z));
+    });
+  }
+  hidden.pool.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    const double share = hidden.hides(x, y) ? 0.7 : is_far(x, y) ? 0.85 : 1;
+    return static_cast<float>(share * hidden.pool.dry_depth(x, y));
+  });
+  const test::Picture wet = test::reference(rays(), hidden.pool.buffers.frame, hidden.pool.scene);
+  int behind = 0;
+  for (int y = far.y0; y < far.y1; ++y) {
+    for (int x = far.x0; x < far.x1; ++x) {
+      const auto end = hidden.pool.end(x, y);
+      const bool inside = end.x > 44 && end.x < 47 && end.y > 46 && end.y < 62;
+      if (!is_far(x, y) || !inside || wet.aov(Aov::kConfidence, x, y) > 0) continue;
+      ++behind;
+      EXPECT_LT(wet.aov(Aov::kTransmitted, x, y), 1) << x << ", " << y;
+      EXPECT_NEAR(wet.aov(Aov::kPath, x, y), end.distance, 0.25) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(behind, 4);
+}
+
+// A post that stands on the bottom: its foot, a steep slope, is nearly as deep as the bottom.
+TEST(BottomLayer, FeetOfObjectsAreNoBottom) {
+  Hidden hidden({40, 36, 52, 64});
+  for (int c = 0; c < 3; ++c) {
+    hidden.pool.buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+      return static_cast<float>(hidden.hides(x, y) ? kThing : 0.5);
+    });
+  }
+  hidden.pool.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    return static_cast<float>(hidden.pool.dry_depth(x, hidden.hides(x, y) ? 64 : y));
+  });
+  BottomLayerMaker maker;
+  const BottomLayer* layer = hidden.made(maker);
+  ASSERT_TRUE(layer);
+  for (int y = 40; y < 54; ++y) {
+    EXPECT_NEAR(at_pixel(*layer, layer->colors.channels[0], 46, y), 0.5, 0.2) << y;
+    EXPECT_NEAR(at_pixel(*layer, layer->shape.channels[0], 46, y), hidden.drop(46, y), 0.2) << y;
+  }
+}
+
 // Sunlight from the right, unrefracted 1.5 to the left on its way to the bottom, refracted 1; no
 // sunlight enters at x < 0. Its strength is that of sun_color, or of the shadow's edge.
 TEST(BottomLayer, ShadowsOfTheWaterFallOnTheBottomBehindAnObject) {

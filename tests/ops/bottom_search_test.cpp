@@ -22,6 +22,7 @@ struct FlatBottom {
   double shelf = drop, shelf_from = HUGE_VAL, rise = 1e-9;
   double ended = 0;     ///< 1: the bottom layer says that the bottom has ended
   double below = drop;  ///< the drop of the bottom layer
+  double mixed_shelf = 0, mixed_shelf_from = HUGE_VAL;  ///< `mixed` to the right of that shift
 
   double nearest(PlaneId, Vec2<double> shift) const {
     ++looks;
@@ -40,7 +41,7 @@ struct FlatBottom {
   Quad quad(Vec2<double> shift) const { return {shift}; }
   Four<double> read(PlaneId, const Quad& q) const {
     ++looks;
-    const double depth = depth_at(mixed, q.shift);
+    const double depth = depth_at(q.shift.x > mixed_shelf_from ? mixed_shelf : mixed, q.shift);
     return {depth, depth, depth, depth};
   }
   Vec2<double> place(PlaneId, const Quad& q, int) const { return q.shift; }
@@ -92,6 +93,32 @@ BottomSearch<double, FlatBottom>::Found march(View& view, const FlatBottom& tap)
   return BottomSearch<double, FlatBottom>{view.pass, planes, view.pixel, tap,
                                           *view.ray, 0.5,    0,          expected}
       .march();
+}
+
+// Steps from a bottom to a shelf beside it and back again: the ray meets what is between them.
+TEST(BottomSearch, StepsThatLeadBackAndForthMeetInTheMiddle) {
+  View view(kAside);
+  int looks = 0, expected = 0;
+  FlatBottom tap{view.pass, view.pixel, 1, looks};
+  view.pixel.dry_depth = view.pixel.surface_depth * (1 + tap.drop / view.pass.eye_above);
+  const SeenPlanes planes{PlaneId::kColorR, PlaneId::kDepth, view.pass.dry, false};
+  const BottomSearch<double, FlatBottom> search{view.pass, planes, view.pixel, tap,
+                                                *view.ray, 0.5,    0,          expected};
+  EXPECT_NEAR(search.iterate(2).distance, 2, 1e-9);
+  tap.mixed_shelf = 0.25, tap.mixed_shelf_from = view.ray->shift_at(1).x;
+  EXPECT_NEAR(search.iterate(1).distance, 0.5, 1e-9);
+  // From 2 to 0.5, and from there to 2.
+  EXPECT_NEAR(search.iterate(2).distance, 1.25, 1e-9);
+  EXPECT_NEAR(search.iterate(3).distance, 1.25, 1e-9);
+  // From 2 to 1, and on to 0.6: no step leads back.
+  tap.mixed = 0.3, tap.mixed_shelf = 0.5, tap.mixed_shelf_from = view.ray->shift_at(0.8).x;
+  EXPECT_NEAR(search.iterate(2).distance, 0.6 + 0.4, 1e-9);
+  tap.mixed_shelf_from = view.ray->shift_at(1.5).x;
+  EXPECT_NEAR(search.iterate(2).distance, 0.6, 1e-9);
+  // Nothing is between an end and none.
+  tap.mixed_shelf = HUGE_VAL, view.pass.bottomless = true;
+  EXPECT_EQ(search.iterate(1).distance, HUGE_VAL);
+  EXPECT_EQ(search.iterate(2).distance, search.iterate(3).distance);
 }
 
 TEST(BottomSearch, KnownHeightsSaveLookupsAndChangeNothing) {

@@ -85,6 +85,26 @@ TEST(Caustics, LeaveShadowsWhoseBottomElsewhereIsNotShown) {
   for (const int x : {8, 9}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-3) << x;
 }
 
+// A bottom 8 deep, over which refraction moves the sun's light by 14 / 3, is in shade in columns 3
+// to 5. Where it rises there towards the sun, the shade is its own, and nothing casts it.
+TEST(Caustics, LeaveTheShadeOfSlopesThatFaceAway) {
+  Tray tray = under_a_board();
+  tray.buffers.frame.planes[index_of(PlaneId::kSurfaceShadow)] = {};
+  const auto lit = [](int x, int) { return x < 3 || x > 5 ? 1.0f : 0.0f; };
+  tray.buffers.set(PlaneId::kShadow, lit);
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.set(plane_after(PlaneId::kSunColorR, c),
+                     [=](int x, int y) { return 0.3f * lit(x, y); });
+    tray.buffers.set(plane_after(PlaneId::kColorR, c),
+                     [=](int x, int y) { return 0.2f + 0.3f * lit(x, y); });
+  }
+  for (const bool rises : {false, true}) {
+    tray.buffers.set(PlaneId::kDepth,
+                     [=](int x, int) { return rises && x > 3 && x < 7 ? 17.0f : 18.0f; });
+    EXPECT_NEAR(tray.wet().color(8, 2).r, rises ? 0.5 : 0.2, 0.01) << rises;
+  }
+}
+
 TEST(Caustics, LeaveShadowsThatAreCastInTheWater) {
   Tray tray = under_a_board();
   tray.buffers.fill(PlaneId::kSurfaceShadow, 1);  // the caster of the shadow lies deeper

@@ -199,20 +199,25 @@ TEST(Caustics, SunColorTellsTheSunsLight) {
 }
 
 // The shadow plane shows the object in front of bottom that is filled in, and no surface shows the
-// shadow on it.
+// shadow on it. Of a layer that is not lit, the light stays whole, and is not known.
 TEST(Caustics, LeaveTheSunOnBottomThatIsFilledIn) {
   const Ramp ramp(1);
   Basin basin(ramp, {0.8, 0.6, 0});
   for (int c = 0; c < 3; ++c) basin.tray.buffers.fill(plane_after(PlaneId::kSunColorR, c), 0.3f);
   basin.tray.buffers.fill(PlaneId::kShadow, 0).fill(PlaneId::kDepth, 11);
-  const Pass c = basin.pass();
-  for (const double filled : {0.0, 1.0}) {
-    Basin::ReferenceState state(c, basin.tray.buffers.frame, 4, 2);
-    state.pixel.path = 4, state.pixel.hit_depth = 14;
-    state.pixel.dry_lit_known = filled;
-    state.applied(basin.params, c);
-    EXPECT_EQ(state.pixel.dry_lit, filled);
-    EXPECT_EQ(state.pixel.dry_lit_known, filled);
+  Pass c = basin.pass();
+  BottomLayer layer{};
+  c.bottom_layer = &layer;
+  for (const bool lit : {false, true}) {
+    layer.lit = lit;
+    for (const double filled : {0.0, 1.0}) {
+      Basin::ReferenceState state(c, basin.tray.buffers.frame, 4, 2);
+      state.pixel.path = 4, state.pixel.hit_depth = 14;
+      state.pixel.filled = filled;
+      state.applied(basin.params, c);
+      EXPECT_EQ(state.pixel.dry_lit, filled);
+      EXPECT_EQ(state.pixel.dry_lit_known, lit ? filled : 0);
+    }
   }
 }
 

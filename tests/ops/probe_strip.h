@@ -181,7 +181,8 @@ void each_number(P& a, Q& b, StatePart part, Fn&& fn) {
       return rgb(a.transmittance, b.transmittance);
     case StatePart::kDryBottom:
       rgb(a.dry_bottom, b.dry_bottom);
-      return fn(a.dry_lit, b.dry_lit), fn(a.dry_lit_known, b.dry_lit_known);
+      fn(a.dry_lit, b.dry_lit), fn(a.dry_lit_known, b.dry_lit_known);
+      return fn(a.filled, b.filled);
     case StatePart::kTransmitted:
       return rgb(a.transmitted, b.transmitted);
     case StatePart::kInScatter:
@@ -266,7 +267,7 @@ inline Pixel<double> random_pixel(int seed, StateSet random) {
     p.sun_entry = {0.3, 0, 0.2}, p.mean_scatter_distance = 0.8;
   }
   if (random.has(StatePart::kDryBottom))
-    p.dry_bottom = rgb(), p.dry_lit = 0.5, p.dry_lit_known = 0.5;
+    p.dry_bottom = rgb(), p.dry_lit = p.dry_lit_known = p.filled = 0.5;
   if (random.has(StatePart::kTransmitted)) p.transmitted = rgb();
   if (random.has(StatePart::kInScatter)) p.in_scatter = rgb();
   if (random.has(StatePart::kFresnel)) p.fresnel = 0.5 + 0.5 * number();

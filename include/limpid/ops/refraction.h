@@ -20,14 +20,14 @@ namespace limpid {
 /// `snell`: from the surface point along the refracted ray (Heckbert 1989, "Writing a Ray Tracer"),
 /// refracted at the wave's normal by water.ior, to the dry geometry in the depth plane. Its length:
 /// with `steps` 0 to the depth of the bottom at the pixel itself; with k, refined k times by the
-/// depth at the last estimate; with "march", to where the ray passes behind the depth plane
-/// (McGuire & Mara 2014, "Efficient GPU Screen-Space Ray Tracing", with equal steps on screen, then
-/// bisection). Objects far in front of the ray hide the bottom and are not hit. A ray that
-/// reappears from behind such an object below the bottom ends on the layer of the bottom in Pass,
-/// which continues the bottom behind objects; a ray without a hit in the picture ends where 4 steps
-/// estimate. Thin objects under water hide only points within `thickness` behind them. From below
-/// the ray is refracted outwards; where it is totally reflected the surface transmits nothing and
-/// the lookup stays at the pixel.
+/// depth at the last estimate, and by a secant if the last two lead back and forth; with "march",
+/// to where the ray passes behind the depth plane (McGuire & Mara 2014, "Efficient GPU Screen-Space
+/// Ray Tracing", with equal steps on screen, then bisection). Objects far in front of the ray hide
+/// the bottom and are not hit. A ray that reappears from behind such an object below the bottom
+/// ends on the layer of the bottom in Pass, which continues the bottom behind objects; a ray
+/// without a hit in the picture ends where 4 steps estimate. Thin objects under water hide only
+/// points within `thickness` behind them. From below the ray is refracted outwards; where it is
+/// totally reflected the surface transmits nothing and the lookup stays at the pixel.
 ///
 /// A lookup must not show objects above the surface. `rejection` `none` accepts every lookup.
 /// `snap` ("Realistic Water"): where the dry depth nearest to uv' is in front of this pixel's
