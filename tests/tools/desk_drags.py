@@ -4,7 +4,8 @@ impatient user. The server may not grow, nothing may be refused, and in the end 
 
   desk_drags.py LIMPID DATA CHROMIUM [--drags N] [--minutes M] [--seed S] [VIEW'S ARGUMENTS]
 
-Prints the server's resident memory as it goes. With --minutes it drags for so long instead of N times.
+Prints the server's resident memory as it goes. With --minutes it drags for so long instead of N times. The second half begins
+again with the random numbers of the first: other settings may need more memory, the same settings may not.
 """
 import argparse
 import contextlib
@@ -31,13 +32,18 @@ def memory(pid):
 
 class Dragger:
     def __init__(self, desk, seed):
-        self.desk, self.chance, self.dragged = desk, random.Random(seed), {}
+        self.desk, self.seed, self.dragged = desk, seed, {}
         desk.run("document.querySelectorAll('#fields details').forEach((group) => { group.open = true; }); 0")
         desk.run("window.refusals = []; new MutationObserver(() => refusals.push(textOf('note')))"
                  ".observe(document.getElementById('notes'), {attributes: true, attributeFilter: ['data-bad']}); 0")
         self.sliders = desk.run("""[...document.querySelectorAll("#fields input[type=range]")].map((bar) => bar.id)""")
         self.looks = desk.run("[...document.getElementById('look').options].map((option) => option.value)")
         self.shows = desk.run("[...document.getElementById('show').options].map((option) => option.value)")
+
+    def begin(self):
+        self.chance = random.Random(self.seed)
+        self.desk.run(f"choose('look', '{self.looks[0]}')")
+        self.desk.run(f"choose('show', '{self.shows[0]}')")
 
     def warm_up(self):
         """Shows all that there is: what the server keeps for it is no leak."""
@@ -100,12 +106,15 @@ def main():
             contextlib.closing(Desk(asked.limpid, browser, folder, *view)) as desk:
         dragger = Dragger(desk, asked.seed)
         dragger.warm_up()
-        begun, done, samples = time.monotonic(), 0, []
+        begun, done, samples, halves = time.monotonic(), 0, [], 0
 
         def share():
             return (time.monotonic() - begun) / 60 / asked.minutes if asked.minutes else done / asked.drags
 
         while share() < 1:
+            if halves == 0 or (halves == 1 and share() >= HALF):
+                dragger.begin()
+                halves += 1
             dragger.drag()
             if dragger.chance.random() < 0.15:
                 dragger.do_something_else()
