@@ -83,10 +83,21 @@ class Pictures(InBlender):
         self.assertAlmostEqual(sun[lit[1], lit[0]], 1, delta=.02)
         self.assertEqual(sun[dark[1], dark[0]], 0)
         bottom = shadow.channels("ViewLayer.Combined.R")[..., 0]
-        self.assertLess(bottom.max(), 1.01)
+        # Where a surface faces the sun at a grazing angle, the samples of the sun's disc differ.
+        self.assertLess(bottom.max(), 1.3)
+        self.assertLess((bottom > 1.02).mean(), .01)
         self.assertGreater((bottom > .9).mean(), .3)
         self.assertGreater((bottom < .1).mean(), .1)
         self.of_the_wet_pool(Plate(folder / "wet.0001.exr"))
+
+    def test_a_sun_before_the_camera_lights_as_much_as_one_behind_it(self):
+        script = "sun = next(o for o in bpy.data.objects if o.type == 'LIGHT')\nsun.rotation_euler = (-1.1, 0, .3)\n"
+        folder = self.wet("pool", POOL + "settings.below = settings.reflection = settings.aovs = False\n", script=script)
+        self.assertGreater(self.facts(folder)["sun"]["direction"][1], .5)  # the camera looks along y
+        for name in "shadow", "surface":
+            lit = Plate(folder / f"plates/{name}.0001.exr").channels("ViewLayer.Combined.R")[..., 0]
+            self.assertGreater((lit > .97).mean(), .25, name)
+            self.assertLess(((lit > .1) & (lit < .9)).mean(), .06, name)  # edges of shadows
 
     def of_the_wet_pool(self, wet):
         picture = wet.channels("R", "G", "B").astype(float)

@@ -93,17 +93,18 @@ def cut_group():
 
 
 def sunlit_group():
-    """All surfaces are white and face the sun, whose direction is `x`, `y`, `z`: with a sun of strength pi, the
+    """All surfaces reflect as if they faced the sun, whose direction is `x`, `y`, `z`: with a sun of strength pi, the
     brightness of a pixel is the sun's visibility. Surfaces that face away are black. Shadow rays meet the original
     material."""
     group = _Group("limpid sunlit")
     sun = group.node("ShaderNodeCombineXYZ", *(group.number(axis) for axis in "xyz"))[0]
-    face = group.node("ShaderNodeNewGeometry")["True Normal"]
-    towards = group.node("ShaderNodeVectorMath", face, sun, operation="DOT_PRODUCT")["Value"]
-    color = group.math("GREATER_THAN", towards, 1e-4)
+    here = group.node("ShaderNodeNewGeometry")
+    def cosine(normal):
+        return group.node("ShaderNodeVectorMath", here[normal], sun, operation="DOT_PRODUCT")["Value"]
+    # The color, not the normal, makes up for the slope: Cycles turns normals that face away from the camera.
     white = group.tree.nodes.new("ShaderNodeBsdfDiffuse")
-    group.tree.links.new(color, white.inputs["Color"])
-    group.tree.links.new(sun, white.inputs["Normal"])
+    group.tree.links.new(group.math("DIVIDE", group.math("GREATER_THAN", cosine("True Normal"), 1e-4),
+                                    group.math("MAXIMUM", cosine("Normal"), .002)), white.inputs["Color"])
     shadow = group.node("ShaderNodeLightPath")["Is Shadow Ray"]
     return group.finish(group.mix(shadow, white.outputs[0], group.before))
 
