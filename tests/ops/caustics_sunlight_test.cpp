@@ -113,6 +113,54 @@ TEST(Caustics, LeaveShadowsThatAreCastInTheWater) {
   EXPECT_NEAR(wet.color(14, 2).r, 0.5, 1e-6);
 }
 
+// A block in columns 12 ... 15 is 3 high: straight light leaves 4 columns beside it dark, refracted
+// light 2.25. A block that the picture does not show, because it is flat there, may be as long.
+TEST(Caustics, ShortenShadowsOfObjectsInTheWater) {
+  for (const bool shown : {true, false}) {
+    Tray tray = under_a_board();
+    const auto lit = [](int x, int) { return x < 8 || x > 11 ? 1.0f : 0.0f; };
+    tray.buffers.set(PlaneId::kShadow, lit).fill(PlaneId::kSurfaceShadow, 1);
+    tray.buffers.set(PlaneId::kDepth,
+                     [=](int x, int) { return shown && x > 11 && x < 16 ? 11.0f : 14.0f; });
+    for (int c = 0; c < 3; ++c) {
+      tray.buffers.set(plane_after(PlaneId::kSunColorR, c),
+                       [=](int x, int y) { return 0.3f * lit(x, y); });
+      tray.buffers.set(plane_after(PlaneId::kColorR, c),
+                       [=](int x, int y) { return 0.2f + 0.3f * lit(x, y); });
+    }
+    const test::Picture wet = tray.wet();
+    for (const int x : {10, 11}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-3) << x;
+    EXPECT_NEAR(wet.color(8, 2).r, shown ? 0.5 : 0.2, 1e-3);
+    EXPECT_NEAR(wet.color(5, 2).r, 0.5, 1e-3);
+  }
+}
+
+// Over a shallow bottom, which is everywhere near below the way of straight light, too.
+TEST(Caustics, LeaveShadowsOnAFlatBottom) {
+  Tray tray = under_a_board();
+  tray.scene.water->height = -3.9;  // 13.9 away: the water is 0.1 deep
+  tray.buffers.fill(PlaneId::kSurfaceDepth, 13.9f).fill(PlaneId::kSurfaceShadow, 1);
+  const test::Picture wet = tray.wet();
+  for (const int x : {7, 8, 9}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-3) << x;
+  EXPECT_NEAR(wet.color(14, 2).r, 0.5, 1e-3);
+}
+
+// In the edge of such a shadow, where straight light passes the block by less than a pixel.
+TEST(Caustics, LeaveNoOutlineOfShadowsOfObjectsInTheWater) {
+  Tray tray = under_a_board();
+  const auto lit = [](int x, int) { return x < 7 || x > 11 ? 1.0f : x == 7 ? 0.4f : 0.0f; };
+  tray.buffers.set(PlaneId::kShadow, lit).fill(PlaneId::kSurfaceShadow, 1);
+  tray.buffers.set(PlaneId::kDepth, [](int x, int) { return x > 11 && x < 16 ? 11.0f : 14.0f; });
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.set(plane_after(PlaneId::kSunColorR, c),
+                     [=](int x, int y) { return 0.3f * lit(x, y); });
+    tray.buffers.set(plane_after(PlaneId::kColorR, c),
+                     [=](int x, int y) { return 0.2f + 0.3f * lit(x, y); });
+  }
+  const test::Picture wet = tray.wet();
+  for (const int x : {6, 7, 8}) EXPECT_NEAR(wet.color(x, 2).r, 0.5, 1e-3) << x;
+}
+
 // Something hides the bottom, which the layer below shows; what hides it is in the sun.
 TEST(Caustics, MoveShadowsOfHiddenPlaces) {
   Tray tray = under_a_board();
