@@ -150,7 +150,7 @@ void Completer::complete_sky(PlaneSet made, const Plan& plan, const Pass& pass, 
                              Frame& frame) {
   if (made.empty()) return;
   if (sky_.make(frame, executor)) {
-    frame.sky_slope = sky_slope(frame, pass);
+    frame.sky_change = sky_change(frame, pass);
   } else {
     const auto known = known_sky(plan.look.of<FresnelReflection>(), pass);
     sky_.make_even(frame, known ? *known : guessed_sky(frame), executor);

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "complete/rows.h"
+#include "optics/clear_sky.h"
 
 namespace limpid {
 namespace {
@@ -76,19 +77,46 @@ void Sky::resize(const Rect& window) {
   }
 }
 
-Rgb<double> sky_slope(const Frame& frame, const Pass& pass) {
+namespace {
+
+/// A line through points, by least squares.
+class Line {
+ public:
+  void add(double x, double y) {
+    count_ += 1, x_ += x, y_ += y, xx_ += x * x, yy_ += y * y, xy_ += x * y;
+  }
+  struct Fit {
+    double slope, explained;  ///< share of the variance of y
+  };
+  /// 0 and 0 for points with one x.
+  Fit fit() const {
+    constexpr double kLeastVariance = 1e-8;  // less comes from rounding alone
+    const double variance = xx_ - x_ * x_ / std::max(count_, 1.0);
+    if (!(variance > kLeastVariance * count_)) return {0, 0};
+    const double covariance = xy_ - x_ * y_ / count_, whole = yy_ - y_ * y_ / count_;
+    const double slope = covariance / variance;
+    return {slope, whole > 0 ? std::min(covariance * slope / whole, 1.0) : 0};
+  }
+
+ private:
+  double count_ = 0, x_ = 0, y_ = 0, xx_ = 0, yy_ = 0, xy_ = 0;
+};
+
+}  // namespace
+
+SkyChange sky_change(const Frame& frame, const Pass& pass) {
   constexpr int kMost = 256;
   const Picture picture(frame);
   const Rect& window = picture.window;
   const int step_x = std::max(1, window.width() / kMost);
   const int step_y = std::max(1, window.height() / kMost);
-  double count = 0, sine_sum = 0, sine_squares = 0;
-  std::array<double, 3> sums{}, squares{}, products{};
+  std::array<Line, 3> of_elevation, of_both;
   for (int y = window.y0; y < window.y1; y += step_y) {
     for (int x = window.x0; x < window.x1; x += step_x) {
       if (!picture.is_sky(x, y)) continue;
-      const glm::dvec3 view = pass.rays.ray_at(x - pass.corner.x + 0.5, y - pass.corner.y + 0.5);
-      const double sine = glm::dot(pass.up, glm::normalize(view));
+      const glm::dvec3 view =
+          glm::normalize(pass.rays.ray_at(x - pass.corner.x + 0.5, y - pass.corner.y + 0.5));
+      const double sine = glm::dot(pass.up, view);
       std::array<double, 3> logs;
       bool shines = sine > 0;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -97,26 +125,27 @@ Rgb<double> sky_slope(const Frame& frame, const Pass& pass) {
         logs[i] = shines ? std::log(color) : 0;
       }
       if (!shines) continue;
-      count += 1, sine_sum += sine, sine_squares += sine * sine;
+      const double elevation = clear_sky_by_elevation(sine);
+      const double sun = clear_sky_by_sun(glm::dot(pass.sun.direction, view));
       for (std::size_t i = 0; i < 3; ++i) {
-        sums[i] += logs[i], squares[i] += logs[i] * logs[i], products[i] += sine * logs[i];
+        of_elevation[i].add(elevation, logs[i]);
+        of_both[i].add(elevation + sun, logs[i]);
       }
     }
   }
-  // Below this, rows of one elevation differ by rounding alone.
-  constexpr double kLeastVariance = 1e-8;
-  const double variance = sine_squares - sine_sum * sine_sum / std::max(count, 1.0);
-  if (!(variance > kLeastVariance * count)) return {0, 0, 0};
-  const auto slope_of = [&](std::size_t i) {
-    const double covariance = products[i] - sine_sum * sums[i] / count;
-    const double whole = squares[i] - sums[i] * sums[i] / count;
-    const double slope = covariance / variance;
-    const double explained = whole > 0 ? std::min(covariance * slope / whole, 1.0) : 0;
-    return std::clamp(slope * explained, -kMostSkySlope, kMostSkySlope);
-  };
-  const double r = slope_of(0), g = slope_of(1), b = slope_of(2);
-  const double common = std::max(std::min({r, g, b}), 0.0);
-  return {std::min(r, common), std::min(g, common), std::min(b, common)};
+  std::array<double, 3> with_elevation{}, with_sun{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [alone, by_alone] = of_elevation[i].fit();
+    const auto [both, by_both] = of_both[i].fit();
+    const bool glows = pass.has_sun && both > 0 && by_both > by_alone;
+    const double change = glows ? both * by_both : alone * by_alone;
+    with_elevation[i] = std::clamp(change, -kMostSkyGain, kMostSkyFall);
+    if (glows) with_sun[i] = std::min(with_elevation[i], kMostSkyGlow);
+  }
+  const auto [r, g, b] = with_elevation;
+  const double least = std::min(std::max({r, g, b}), 0.0);
+  return {{std::max(r, least), std::max(g, least), std::max(b, least)},
+          {with_sun[0], with_sun[1], with_sun[2]}};
 }
 
 bool shows_sky(const Frame& frame) {

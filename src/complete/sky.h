@@ -30,14 +30,17 @@ class Sky {
   PullPush<3> sky_;
 };
 
-/// How the sky that a frame shows changes with elevation: the change of the logarithm of radiance
-/// per sine of elevation, for red, green and blue, by least squares over some hundred rows and
-/// columns. Each is multiplied by the share of the variance that it explains, so that clouds count
-/// for little, and at most kMostSkySlope. A color brightens only as far as all three do, as under
-/// clouds: blue that grows over a hazy horizon soon falls again. 0 if the frame shows no sky, or
-/// one elevation of it.
-Rgb<double> sky_slope(const Frame& frame, const Pass& pass);
-constexpr double kMostSkySlope = 4;
+/// How the sky that a frame shows changes, as multiples of a clear sky's change, by least squares
+/// over some hundred rows and columns: with elevation and with the angle to the sun together, if
+/// there is a sun and this explains more of the variance than elevation alone. Each is multiplied
+/// by the share of the variance that it explains, so that clouds count for little, and at most
+/// kMostSkyFall towards the zenith, or kMostSkyGain where the sky brightens there: overcast skies
+/// do so all the way, a dusty one over its horizon alone. Around the sun the sky brightens at most
+/// as the standard does (kMostSkyGlow), because a few degrees over the horizon tell little of it. A
+/// color brightens only as far as all three do: blue that grows over a hazy horizon soon falls
+/// again. None if the frame shows no sky, or one elevation of it.
+SkyChange sky_change(const Frame& frame, const Pass& pass);
+constexpr double kMostSkyFall = 1.5, kMostSkyGain = 0.4, kMostSkyGlow = 1;
 
 /// Whether the frame shows sky, by color and depth.
 bool shows_sky(const Frame& frame);

@@ -47,8 +47,8 @@ struct Pass : WaterView {
   const ScatteredLight* scattered_light;  ///< for red, green, blue; or null
   Rgb<double> sky;                        ///< radiance of a uniform sky, 0 without one
   bool has_sky;
-  Rgb<double> sky_slope;  ///< of the planes of the sky: Frame::sky_slope
-  StateSet made;  ///< state that the plan's operators make; neutral or absent ones make none
+  SkyChange sky_change;  ///< of the planes of the sky
+  StateSet made;         ///< state that the plan's operators make; neutral or absent ones make none
   /// False if no object stands in front of the water anywhere that refraction may look up
   /// (plan/survey.h): an operator may leave out its test for that.
   bool foreground = true;

@@ -6,6 +6,7 @@
 #include "op/operator.h"
 #include "op/screen_ray.h"
 #include "op/water_medium.h"
+#include "optics/clear_sky.h"
 #include "optics/refract.h"
 #include "optics/surroundings.h"
 
@@ -242,27 +243,31 @@ struct MirroredPicture : FresnelReflection {
     return beyond;
   }
 
-  /// The planes of the sky. Beyond their edge the sky goes on to change with elevation as the
-  /// visible sky does, less and less: clear skies darken and overcast ones brighten towards the
-  /// zenith, most of it in the lowest 30 degrees (CIE S 011:2003, "Spatial Distribution of Daylight
-  /// - CIE Standard General Sky").
+  /// The planes of the sky. Beyond their edge the sky goes on to change as the visible sky does, in
+  /// multiples of a clear sky's change: clear skies darken and overcast ones brighten towards the
+  /// zenith, and clear skies are brighter around the sun.
   template <class F, class Tap>
   static Rgb<F> sky(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
                     const ScreenRay<F>& ray) {
-    constexpr double kSettles = 0.35;  // sine of elevation
     const Vec2<F> end = ray.shift_at(F(HUGE_VAL)), at = next_to(c, p, end);
     Rgb<F> seen = bilinear_rgb<F>(tap, PlaneId::kSkyR, end);
     const auto beyond = abs(end.x - at.x) + abs(end.y - at.y) > F(0);
     if_any(beyond, [&] {
-      const Vec3<F> up = vec3_of<F>(c.up), edge = ray_gain(c, at) - p.ray_length * p.to_viewer;
-      const F rise = dot(up, mirrored_ray(c, p, n)) - dot(up, edge) / sqrt(dot(edge, edge));
-      const F gained = F(kSettles) * (F(1) - exp(F(-1 / kSettles) * max(rise, F(0))));
-      const auto on = [&](double slope, int i, F light) {
-        const F changed = light * exp(gained * given<F>(slope, "sky.slope", i));
+      const Vec3<F> up = vec3_of<F>(c.up), to_sun = vec3_of<F>(c.sun.direction);
+      const Vec3<F> view = ray_gain(c, at) - p.ray_length * p.to_viewer;
+      const Vec3<F> edge = (F(1) / sqrt(dot(view, view))) * view, far = mirrored_ray(c, p, n);
+      // The texel at the edge may lie below the ray, and below the horizon.
+      const F low = max(dot(up, edge), F(0)), high = max(dot(up, far), low);
+      const F by_elevation = clear_sky_by_elevation(high) - clear_sky_by_elevation(low);
+      const F by_sun = clear_sky_by_sun(dot(to_sun, far)) - clear_sky_by_sun(dot(to_sun, edge));
+      const auto on = [&](double elevation, double sun, int i, F light) {
+        const F changed = light * exp(by_elevation * given<F>(elevation, "sky.with_elevation", i) +
+                                      by_sun * given<F>(sun, "sky.with_sun", i));
         return select(beyond, changed, light);
       };
-      seen = {on(c.sky_slope.r, 0, seen.r), on(c.sky_slope.g, 1, seen.g),
-              on(c.sky_slope.b, 2, seen.b)};
+      const Rgb<double>&elevation = c.sky_change.with_elevation, &sun = c.sky_change.with_sun;
+      seen = {on(elevation.r, sun.r, 0, seen.r), on(elevation.g, sun.g, 1, seen.g),
+              on(elevation.b, sun.b, 2, seen.b)};
     });
     return seen;
   }

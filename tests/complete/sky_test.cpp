@@ -6,6 +6,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "optics/clear_sky.h"
 #include "support.h"
 
 // The sky behind objects that hide it.
@@ -101,28 +102,37 @@ TEST(Sky, OfOneColorReplacesASkyThatIsNotSeen) {
 
 constexpr Size kView{64, 72};
 
-/// A camera two metres above calm water, 15 degrees down, under a sky whose logarithm falls with
-/// the sine of elevation, of red and of the other colors.
+/// A camera two metres above calm water, 15 degrees down, under a sky that changes by multiples of
+/// a clear sky's change with elevation, of red and of the other colors, and of its change with the
+/// angle to a sun above the picture.
 struct Evening {
   test::Buffers buffers{rect_of(kView)};
   Scene scene = test::simple_scene(kView);
-  double fall = 3, other = 0;
+  double fall = 1, other = 0, glow = 0;
+  glm::dvec3 to_sun = glm::normalize(glm::dvec3(0.3, 0.4, -1));
 
   Evening() {
     scene.camera->view = glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 2 - std::tan(0.2618), -1),
                                      glm::dvec3(0, 1, 0));
+    scene.sun = Sun{to_sun, {3, 3, 3}};
     draw([](int, int) { return 0.0; });
   }
   glm::dvec3 ray(double x, double y) const {
     return glm::normalize(rays_of(*scene.camera, {kView.width, kView.height}).ray_at(x, y));
   }
+  /// The logarithm of the sky's light, of red and of the other colors.
+  double log_at(const glm::dvec3& direction, bool red) const {
+    return (red ? fall : other) * clear_sky_by_elevation(direction.y) +
+           (red ? glow : 0) * clear_sky_by_sun(glm::dot(to_sun, direction));
+  }
   template <class Clouds>
   void draw(Clouds&& clouds) {
     for (int c = 0; c < 3; ++c) {
       buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
-        const double sine = ray(x + 0.5, y + 0.5).y, of_channel = c == 0 ? fall : other;
+        const glm::dvec3 direction = ray(x + 0.5, y + 0.5);
         return static_cast<float>(
-            sine > 0 ? std::exp(-of_channel * sine + (c == 0 ? clouds(x, y) : 0)) : 0.5);
+            direction.y > 0 ? std::exp(log_at(direction, c == 0) + (c == 0 ? clouds(x, y) : 0))
+                            : 0.5);
       });
     }
     buffers.set(PlaneId::kDepth, [&](int x, int y) {
@@ -131,61 +141,87 @@ struct Evening {
       return rise < 0 ? static_cast<float>(-4 / rise) : kInf;
     });
   }
-  Rgb<double> slope() const {
-    return sky_slope(buffers.frame, Pass(scene, buffers.frame, 1.333, {}));
+  SkyChange change() const {
+    return sky_change(buffers.frame, Pass(scene, buffers.frame, 1.333, {}));
   }
 };
 
 TEST(Sky, TellsHowItChangesWithElevation) {
+  const auto none = [](int, int) { return 0.0; };
   Evening evening;
-  EXPECT_NEAR(evening.slope().r, -3, 1e-4);
-  EXPECT_EQ(evening.slope().g, 0);
+  EXPECT_NEAR(evening.change().with_elevation.r, 1, 1e-4);
+  EXPECT_EQ(evening.change().with_elevation.g, 0);
+  EXPECT_EQ(evening.change().with_sun.r, 0);
   // Brighter higher up: only as far as all colors are.
-  evening.fall = -2;
-  evening.draw([](int, int) { return 0.0; });
-  EXPECT_NEAR(evening.slope().r, 0, 1e-4);
-  evening.other = -1;
-  evening.draw([](int, int) { return 0.0; });
-  EXPECT_NEAR(evening.slope().r, 1, 1e-4);
-  EXPECT_NEAR(evening.slope().b, 1, 1e-4);
+  evening.fall = -1;
+  evening.draw(none);
+  EXPECT_NEAR(evening.change().with_elevation.r, 0, 1e-4);
+  evening.other = -0.3;
+  evening.draw(none);
+  EXPECT_NEAR(evening.change().with_elevation.r, -0.3, 1e-4);
+  EXPECT_NEAR(evening.change().with_elevation.b, -0.3, 1e-4);
+  evening.fall = evening.other = -2;
+  evening.draw(none);
+  EXPECT_EQ(evening.change().with_elevation.g, -kMostSkyGain);
+  evening.other = 0;
   evening.fall = 30, evening.other = 0;
-  evening.draw([](int, int) { return 0.0; });
-  EXPECT_EQ(evening.slope().r, -kMostSkySlope);
+  evening.draw(none);
+  EXPECT_EQ(evening.change().with_elevation.r, kMostSkyFall);
   // Clouds from one pixel to the next: little is known.
-  evening.fall = 1;
+  evening.fall = 0.3;
   evening.draw([](int x, int y) { return (x + y) % 2; });
-  EXPECT_NEAR(evening.slope().r, 0, 0.1);
+  EXPECT_NEAR(evening.change().with_elevation.r, 0, 0.1);
   // Surfaces, and what is black or no number, tell nothing.
   evening.buffers.fill(PlaneId::kColorR, 0);
-  EXPECT_EQ(evening.slope().r, 0);
+  EXPECT_EQ(evening.change().with_elevation.r, 0);
   evening.buffers.fill(PlaneId::kColorR, std::nanf(""));
-  EXPECT_EQ(evening.slope().r, 0);
-  evening.draw([](int, int) { return 0.0; });
+  EXPECT_EQ(evening.change().with_elevation.r, 0);
+  evening.draw(none);
   evening.buffers.fill(PlaneId::kDepth, 5);
-  EXPECT_EQ(evening.slope().r, 0);
+  EXPECT_EQ(evening.change().with_elevation.r, 0);
+}
+
+TEST(Sky, TellsHowItChangesAroundTheSun) {
+  Evening evening;
+  evening.fall = evening.glow = 0.7;
+  evening.draw([](int, int) { return 0.0; });
+  EXPECT_NEAR(evening.change().with_elevation.r, 0.7, 1e-4);
+  EXPECT_NEAR(evening.change().with_sun.r, 0.7, 1e-4);
+  EXPECT_EQ(evening.change().with_sun.g, 0);
+  evening.fall = evening.glow = 1.3;
+  evening.draw([](int, int) { return 0.0; });
+  EXPECT_NEAR(evening.change().with_elevation.r, 1.3, 1e-4);
+  EXPECT_EQ(evening.change().with_sun.r, kMostSkyGlow);
+  // Without a sun it is a sky that changes to the sides, too.
+  evening.scene.sun.reset();
+  EXPECT_EQ(evening.change().with_sun.r, 0);
 }
 
 TEST(Sky, GoesOnToChangeAboveThePicture) {
-  Evening evening;
-  Look look = test::still_look();
-  FresnelReflection::Params& mirror = look.of<FresnelReflection>();
-  mirror.reflectance = FresnelReflection::Reflectance::kRim, mirror.power = 0;
-  mirror.lookup = FresnelReflection::Lookup::kRay;
-  mirror.source = FresnelReflection::Source::kAuto;
-  const test::Picture wet = test::reference(look, evening.buffers.frame, evening.scene);
-  const int x = kView.width / 2;
-  const double edge = evening.ray(x + 0.5, 0).y;
-  int above = 0;
-  for (int y = 0; y < kView.height; ++y) {
-    const double sine = -evening.ray(x + 0.5, y + 0.5).y;
-    if (sine < 0.02) continue;
-    const double beyond = std::max(sine - edge, 0.0);
-    const double exponent = -3 * (std::min(sine, edge) + 0.35 * (1 - std::exp(-beyond / 0.35)));
-    EXPECT_NEAR(wet.aov(Aov::kReflected, x, y), std::exp(exponent), 0.02) << y;
-    EXPECT_NEAR(wet.aov(Aov::kReflected, x, y, 1), 1, 1e-3) << y;
-    if (beyond > 0.1) ++above;
+  for (const double glow : {0.0, 1.0}) {
+    Evening evening;
+    evening.glow = glow;
+    evening.draw([](int, int) { return 0.0; });
+    Look look = test::still_look();
+    FresnelReflection::Params& mirror = look.of<FresnelReflection>();
+    mirror.reflectance = FresnelReflection::Reflectance::kRim, mirror.power = 0;
+    mirror.lookup = FresnelReflection::Lookup::kRay;
+    mirror.source = FresnelReflection::Source::kAuto;
+    look.of<SunHighlight>().strength = 0;
+    const test::Picture wet = test::reference(look, evening.buffers.frame, evening.scene);
+    const int x = kView.width / 2;
+    int above = 0;
+    for (int y = 0; y < kView.height; ++y) {
+      glm::dvec3 mirrored = evening.ray(x + 0.5, y + 0.5);
+      mirrored.y = -mirrored.y;
+      if (mirrored.y < 0.02) continue;
+      const double expected = std::exp(evening.log_at(mirrored, true));
+      EXPECT_NEAR(wet.aov(Aov::kReflected, x, y), expected, 0.02 * expected) << glow << ", " << y;
+      EXPECT_NEAR(wet.aov(Aov::kReflected, x, y, 1), 1, 1e-3) << y;
+      if (mirrored.y > evening.ray(x + 0.5, 0).y + 0.1) ++above;
+    }
+    EXPECT_GT(above, 10);
   }
-  EXPECT_GT(above, 10);
 }
 
 TEST(Sky, IsGuessedFromTheBrightnessOfTheGround) {

@@ -147,6 +147,12 @@ struct Texture {
 /// 255, by more than 1e-6; pictures of 8 bits have only such values.
 std::vector<std::uint32_t> pack_bytes(const Texture& texture);
 
+/// The change of a sky, for red, green and blue: multiples of that of the logarithm of a clear
+/// sky's radiance (optics/clear_sky.h), with elevation and with the angle to the sun.
+struct SkyChange {
+  Rgb<double> with_elevation{0, 0, 0}, with_sun{0, 0, 0};
+};
+
 /// The buffers of one picture, as views, in the conventions of the chain: linear eye depth (+inf
 /// where no surface was hit), scene-linear premultiplied color, shadow 1 = lit, unit world normals,
 /// no NaN (see sanitise.h). Each plane may have its own data window; lookups are clamped to it.
@@ -168,9 +174,8 @@ struct Frame {
   /// The mean radiance of the environment above the horizon, weighted by the cosine with the
   /// water's up; absent if no operator needs it.
   std::optional<Rgb<double>> sky_radiance;
-  /// How the planes of the sky go on beyond their edge: the change of the logarithm of radiance per
-  /// sine of elevation there. 0, or made by complete/.
-  Rgb<double> sky_slope{0, 0, 0};
+  /// How the planes of the sky go on beyond their edge; none, or made by complete/.
+  SkyChange sky_change;
   /// The bottom beyond the picture; null, or made by complete/.
   const Continuation* continuation = nullptr;
   /// The bottom behind the objects in front of it; null, or made by complete/.
