@@ -110,7 +110,7 @@ struct MovedSunlight : Caustics {
                                           const Mask& lanes, const Vec3<F>& end,
                                           const Vec3<F>& straight, const Vec3<F>& refracted,
                                           F lit) {
-    constexpr double kMargin = 0.009;
+    constexpr double kMargin = 0.009;  // outlines are rounded to texels
     F casts = caster_on(c, p, tap, lanes, end, straight, kMargin);
     // Light at a shadow's edge passes the object by a pixel: over it, or beside it.
     const auto at_edge = lanes && lit > F(0.02) && casts < F(1);

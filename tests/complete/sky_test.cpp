@@ -163,7 +163,6 @@ TEST(Sky, TellsHowItChangesWithElevation) {
   evening.fall = evening.other = -2;
   evening.draw(none);
   EXPECT_EQ(evening.change().with_elevation.g, -kMostSkyGain);
-  evening.other = 0;
   evening.fall = 30, evening.other = 0;
   evening.draw(none);
   EXPECT_EQ(evening.change().with_elevation.r, kMostSkyFall);

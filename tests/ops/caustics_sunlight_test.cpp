@@ -9,6 +9,19 @@ namespace {
 
 using test::Tray;
 
+/// Sets the share of sunlight on the bottom, and the colors under it: the sun has 1.5 times the
+/// light of the sky.
+template <class Lit>
+void light(Tray& tray, const Lit& lit) {
+  tray.buffers.set(PlaneId::kShadow, lit);
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.set(plane_after(PlaneId::kSunColorR, c),
+                     [=](int x, int y) { return 0.3f * lit(x, y); });
+    tray.buffers.set(plane_after(PlaneId::kColorR, c),
+                     [=](int x, int y) { return 0.2f + 0.3f * lit(x, y); });
+  }
+}
+
 /// A bottom 4 below calm water, seen straight from above, a unit a pixel, sun from the right at 0.6
 /// of the vertical: straight light goes 16 / 3 to the left on its path down, refracted light 3. A
 /// board lies on the water in columns 12 ... 15.
@@ -20,14 +33,8 @@ Tray under_a_board(int rows = 5) {
         std::clamp(std::min(right, x + 1.0) - std::max(left, double(x)), 0.0, 1.0));
   };
   const auto lit = [=](int x, int) { return 1 - covered(12 - 16.0 / 3, 16 - 16.0 / 3, x); };
-  tray.buffers.set(PlaneId::kShadow, lit);
+  light(tray, lit);
   tray.buffers.set(PlaneId::kSurfaceShadow, [=](int x, int) { return 1 - covered(12, 16, x); });
-  for (int c = 0; c < 3; ++c) {
-    tray.buffers.set(plane_after(PlaneId::kSunColorR, c),
-                     [=](int x, int y) { return 0.3f * lit(x, y); });
-    tray.buffers.set(plane_after(PlaneId::kColorR, c),
-                     [=](int x, int y) { return 0.2f + 0.3f * lit(x, y); });
-  }
   tray.buffers.fill(PlaneId::kSurfaceDepth, 10).fill(PlaneId::kDepth, 14);
   tray.look.of<Caustics>() = {};
   tray.look.of<Refraction>().model = Refraction::Model::kSnell;
@@ -91,13 +98,7 @@ TEST(Caustics, LeaveTheShadeOfSlopesThatFaceAway) {
   Tray tray = under_a_board();
   tray.buffers.frame.planes[index_of(PlaneId::kSurfaceShadow)] = {};
   const auto lit = [](int x, int) { return x < 3 || x > 5 ? 1.0f : 0.0f; };
-  tray.buffers.set(PlaneId::kShadow, lit);
-  for (int c = 0; c < 3; ++c) {
-    tray.buffers.set(plane_after(PlaneId::kSunColorR, c),
-                     [=](int x, int y) { return 0.3f * lit(x, y); });
-    tray.buffers.set(plane_after(PlaneId::kColorR, c),
-                     [=](int x, int y) { return 0.2f + 0.3f * lit(x, y); });
-  }
+  light(tray, lit);
   for (const bool rises : {false, true}) {
     tray.buffers.set(PlaneId::kDepth,
                      [=](int x, int) { return rises && x > 3 && x < 7 ? 17.0f : 18.0f; });
@@ -119,15 +120,10 @@ TEST(Caustics, ShortenShadowsOfObjectsInTheWater) {
   for (const bool shown : {true, false}) {
     Tray tray = under_a_board();
     const auto lit = [](int x, int) { return x < 8 || x > 11 ? 1.0f : 0.0f; };
-    tray.buffers.set(PlaneId::kShadow, lit).fill(PlaneId::kSurfaceShadow, 1);
+    light(tray, lit);
+    tray.buffers.fill(PlaneId::kSurfaceShadow, 1);
     tray.buffers.set(PlaneId::kDepth,
                      [=](int x, int) { return shown && x > 11 && x < 16 ? 11.0f : 14.0f; });
-    for (int c = 0; c < 3; ++c) {
-      tray.buffers.set(plane_after(PlaneId::kSunColorR, c),
-                       [=](int x, int y) { return 0.3f * lit(x, y); });
-      tray.buffers.set(plane_after(PlaneId::kColorR, c),
-                       [=](int x, int y) { return 0.2f + 0.3f * lit(x, y); });
-    }
     const test::Picture wet = tray.wet();
     for (const int x : {10, 11}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-3) << x;
     EXPECT_NEAR(wet.color(8, 2).r, shown ? 0.5 : 0.2, 1e-3);
@@ -149,14 +145,9 @@ TEST(Caustics, LeaveShadowsOnAFlatBottom) {
 TEST(Caustics, LeaveNoOutlineOfShadowsOfObjectsInTheWater) {
   Tray tray = under_a_board();
   const auto lit = [](int x, int) { return x < 7 || x > 11 ? 1.0f : x == 7 ? 0.4f : 0.0f; };
-  tray.buffers.set(PlaneId::kShadow, lit).fill(PlaneId::kSurfaceShadow, 1);
+  light(tray, lit);
+  tray.buffers.fill(PlaneId::kSurfaceShadow, 1);
   tray.buffers.set(PlaneId::kDepth, [](int x, int) { return x > 11 && x < 16 ? 11.0f : 14.0f; });
-  for (int c = 0; c < 3; ++c) {
-    tray.buffers.set(plane_after(PlaneId::kSunColorR, c),
-                     [=](int x, int y) { return 0.3f * lit(x, y); });
-    tray.buffers.set(plane_after(PlaneId::kColorR, c),
-                     [=](int x, int y) { return 0.2f + 0.3f * lit(x, y); });
-  }
   const test::Picture wet = tray.wet();
   for (const int x : {6, 7, 8}) EXPECT_NEAR(wet.color(x, 2).r, 0.5, 1e-3) << x;
 }
