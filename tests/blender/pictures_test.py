@@ -99,6 +99,21 @@ class Pictures(InBlender):
             self.assertGreater((lit > .97).mean(), .25, name)
             self.assertLess(((lit > .1) & (lit < .9)).mean(), .06, name)  # edges of shadows
 
+    def test_a_leaf_on_the_water_is_not_in_the_layer_below(self):
+        script = """level = bpy.data.objects['water'].location.z
+bpy.ops.mesh.primitive_cylinder_add(radius=.8, depth=.002, location=(.5, 0, level + .004))
+leaf = bpy.data.materials.new("leaf")
+leaf.use_nodes = True
+leaf.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (1, 0, 0, 1)
+bpy.context.object.data.materials.append(leaf)
+"""
+        settings = "settings.reflection = settings.shadow = settings.surroundings = settings.aovs = False\n"
+        folder = self.wet("pool", POOL + settings, script=script)
+        dry, below = (Plate(folder / f"plates/{name}.0001.exr").color() for name in ("dry", "below"))
+        x, y = self.pixel_of(self.facts(folder), (.5, 0, 0))
+        self.assertTrue(self.is_red(dry[y, x]))
+        self.assertFalse(self.is_red(below[y, x]))
+
     def of_the_wet_pool(self, wet):
         picture = wet.channels("R", "G", "B").astype(float)
         self.assertEqual(picture.shape, (90, 160, 3))

@@ -70,19 +70,21 @@ def depth_material():
 
 
 def cut_group():
-    """Surfaces on one `side` of the `height` (1 above, -1 below), which rises by `spare` per unit of distance and by
-    `spare_flat`, are transparent to the camera. The exposed inside of a clipped object is transparent, too, or a holdout with
-    `hold`. With `waves`, surfaces in front of the depth of the image `depth`, by more than the rise, are transparent as well."""
+    """Surfaces on one `side` of the `height` (1 above, -1 below), which for objects that the water cuts rises by `spare` per
+    unit of distance and by `spare_flat`, are transparent to the camera. The exposed inside of a clipped object is
+    transparent, too, or a holdout with `hold`. With `waves`, surfaces in front of the depth of the image `depth`, by more
+    than the rise, are transparent as well."""
     group = _Group("limpid cut")
     here, path = group.node("ShaderNodeNewGeometry"), group.node("ShaderNodeLightPath")
     side, height, hold = (group.number(name) for name in ("side", "height", "hold"))
+    crossing = group.node("ShaderNodeAttribute", attribute_type="OBJECT", attribute_name=CROSSING)["Fac"]
     rise = group.math("MULTIPLY_ADD", group.number("spare"), group.node("ShaderNodeCameraData")["View Distance"],
                       group.number("spare_flat"))
+    rise = group.math("MULTIPLY", crossing, rise)
     limit = group.math("ADD", height, rise)
     z = group.node("ShaderNodeSeparateXYZ", here["Position"])[2]
     beyond = group.math("GREATER_THAN", group.math("MULTIPLY", side, z), group.math("MULTIPLY", side, limit))
     beyond = group.math("MAXIMUM", beyond, group.math("MULTIPLY", group.number("waves"), _is_over_waves(group, here, rise)))
-    crossing = group.node("ShaderNodeAttribute", attribute_type="OBJECT", attribute_name=CROSSING)["Fac"]
     inside = group.math("MULTIPLY", here["Backfacing"], crossing)
     inside = group.math("MULTIPLY", inside, group.math("GREATER_THAN", path["Transparent Depth"], 0.5))
     clear = group.node("ShaderNodeBsdfTransparent")[0]
