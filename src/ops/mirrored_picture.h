@@ -225,15 +225,21 @@ struct MirroredPicture : FresnelReflection {
         const auto upright = is_upright(c, ray.across);
         const Vec2<F> aside{select(upright, abs(apart.y) * height / width, F(0)),
                             select(upright, F(0), abs(apart.x) * width / height)};
+        // The share of surfaces beside that place; sky in two of the four places ends them all.
+        F stand(0);
         for (const double share : {-1.0, -0.5, 0.5, 1.0}) {
-          const Vec2<F> beside = next_to(c, p, at + F(share) * aside);
-          meets = meets && tap.nearest(PlaneId::kDepth, beside) < F(1e30);
+          const auto quad = tap.quad(next_to(c, p, at + F(share) * aside));
+          const Four<F> depths = tap.read(PlaneId::kDepth, quad);
+          for (int k = 0; k < 4; ++k) {
+            stand = stand + F(0.25) * select(depths[k] < F(1e30), quad.weight(k), F(0));
+          }
         }
+        const F goes = max(F(2) * stand - F(1), F(0));
         // Of heights of which nothing is known but that they are larger, half are more than twice
         // as large.
         const F known = height_at(c, p, at, seen);
         const F wanted = height_at(c, p, ray.shift_at(distance), ray.depth_at(distance));
-        const F share = select(meets, min(known / max(wanted, F(1e-6)), F(1)), F(0));
+        const F share = select(meets, goes * min(known / max(wanted, F(1e-6)), F(1)), F(0));
         const Rgb<F> shown = bilinear_rgb<F>(tap, PlaneId::kColorR, at);
         const F rest = F(1) - share;
         beyond = {rest * beyond.light + share * shown,

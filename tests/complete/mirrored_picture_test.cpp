@@ -95,6 +95,26 @@ TEST(MirroredPicture, GoesOnBeyondItsEdge) {
   }
 }
 
+// Where sky is seen to one side, half of it goes on, up to the end of the other half: not all at
+// once, which would draw the outline of each gap into the mirror.
+TEST(MirroredPicture, GoesOnHalfBesideItsNearerEnd) {
+  Poles tower(-1, {0, 0.2}, 19, 140, 180);  // no wall but that
+  tower.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    return tower.is_pole(x, y) ? 19.0f : tower.ray(x, y).y < 0 ? tower.depth(x, y) : kInf;
+  });
+  int halves = 0;
+  const int x = 150;
+  const double edge = 2 + 19 * tower.ray(x, 0).y,
+               pixel = 19 * (tower.ray(x, 0) - tower.ray(x, 1)).y;
+  tower.each([&](int column, int y, float color) {
+    const double height = tower.mirrored_at(x, y, 19).y, over = (height - edge) / pixel;
+    if (column != x || over < 9 || over > 16) return;
+    EXPECT_NEAR(color, kSky + 0.5 * edge / height * (kInside - kSky), 0.1) << y;
+    ++halves;
+  });
+  EXPECT_GT(halves, 2);
+}
+
 // Something narrow goes on only as far as it is wide, like a tree whose top the edge cuts.
 TEST(MirroredPicture, GoesOnAsFarAsItIsWide) {
   Poles tower(-1, {0, 0.2}, 19, 140, 180);  // no wall but that
