@@ -1,4 +1,8 @@
 #pragma once
+#include <type_traits>
+
+#include "limpid/ops/refraction.h"
+
 #include "op/bottom_search.h"
 #include "op/continuation.h"
 #include "op/operator.h"
