@@ -9,6 +9,7 @@
 #include "limpid/files/picture/image_file.h"
 
 #include "paths.h"
+#include "sanitized.h"
 #include "tool/tool.h"
 
 /// `limpid report` as a whole: one quick run, its rows read back, its page judged by an XML parser
@@ -186,6 +187,7 @@ void ReportTest::expect_good_page(int width) const {
 }
 
 TEST_F(ReportTest, AQuickOneHasAllRowsAndAPageThatABrowserShows) {
+  if (kSanitized) GTEST_SKIP() << "takes minutes; the tests of judge/report run its parts";
   const Ran ran = limpid({"report", "-o", "report", "--quick", "--rounds", "1"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(ran.out, "report/report.json\nreport/index.html\n");
@@ -202,6 +204,7 @@ TEST_F(ReportTest, AQuickOneHasAllRowsAndAPageThatABrowserShows) {
 }
 
 TEST_F(ReportTest, HardCasesAreATableAPageAndRows) {
+  if (kSanitized) GTEST_SKIP() << "takes a minute; the tests of judge/hard run each case";
   const Ran ran = limpid({"report", "--hard", "-o", "hard"});
   ASSERT_EQ(ran.code, 0) << ran.out << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("depth: 24 bit reversed, eye depth "));
