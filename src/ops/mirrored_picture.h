@@ -196,8 +196,9 @@ struct MirroredPicture : FresnelReflection {
   }
 
   /// The light from beyond the picture, for `lanes`: the surface that the picture shows at its edge
-  /// goes on there, if the ray leaves the picture before it, as far as no sky is seen to both
-  /// sides. The texels of the edge next to the ray show where the ray meets it.
+  /// goes on there, if the ray leaves the picture before it, in the share to which surfaces, not
+  /// sky, are seen to both sides. The texels of the edge next to the ray show where the ray meets
+  /// it.
   template <class F, class Tap, class Mask>
   static Mirrored<F> goes_on(const Pass& c, const Pixel<F>& p, const Tap& tap,
                              const ScreenRay<F>& ray, const Mask& lanes, Mirrored<F> beyond) {
@@ -234,7 +235,7 @@ struct MirroredPicture : FresnelReflection {
             stand = stand + F(0.25) * select(depths[k] < F(1e30), quad.weight(k), F(0));
           }
         }
-        const F goes = max(F(2) * stand - F(1), F(0));
+        const F goes = saturate(F(2) * stand - F(1));
         // Of heights of which nothing is known but that they are larger, half are more than twice
         // as large.
         const F known = height_at(c, p, at, seen);

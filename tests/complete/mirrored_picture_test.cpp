@@ -95,8 +95,8 @@ TEST(MirroredPicture, GoesOnBeyondItsEdge) {
   }
 }
 
-// Where sky is seen to one side, half of it goes on, up to the end of the other half: not all at
-// once, which would draw the outline of each gap into the mirror.
+// Where one of the four places beside it shows sky, half of it goes on: a wall that ended at the
+// first gap would draw the outline of that gap into the mirror.
 TEST(MirroredPicture, GoesOnHalfBesideItsNearerEnd) {
   Poles tower(-1, {0, 0.2}, 19, 140, 180);  // no wall but that
   tower.buffers.set(PlaneId::kDepth, [&](int x, int y) {

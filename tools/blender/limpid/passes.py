@@ -92,7 +92,8 @@ def _with_depth_of_waves(studio, changes, overscan):
 def below(studio, path, overscan):
     """The dry scene without the objects above the water, or above the object's waves, lit and shaded as before. A strip of
     two pixels of objects that the water cuts remains, so that lookups next to the waterline find the object in the water,
-    and not the scene behind the object. What floats on the water, like a leaf, has no part in it."""
+    and not the scene behind the object. Objects that lie above the water as a whole, like
+    a leaf, are left out."""
     with Changes() as changes:
         changes.set(studio.scene.cycles, "samples", studio.samples)
         changes.set(studio.scene.cycles, "transparent_max_bounces", CLEAR)
