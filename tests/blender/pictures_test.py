@@ -99,20 +99,28 @@ class Pictures(InBlender):
             self.assertGreater((lit > .97).mean(), .25, name)
             self.assertLess(((lit > .1) & (lit < .9)).mean(), .06, name)  # edges of shadows
 
-    def test_a_leaf_on_the_water_is_not_in_the_layer_below(self):
+    def test_leaves_on_the_water_are_not_in_the_layer_below_and_a_post_keeps_a_strip(self):
         script = """level = bpy.data.objects['water'].location.z
-bpy.ops.mesh.primitive_cylinder_add(radius=.8, depth=.002, location=(.5, 0, level + .004))
 leaf = bpy.data.materials.new("leaf")
 leaf.use_nodes = True
 leaf.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (1, 0, 0, 1)
+bpy.ops.mesh.primitive_cylinder_add(radius=.8, depth=.002, location=(.5, 0, level + .004))
+bpy.context.object.data.materials.append(leaf)
+bpy.ops.mesh.primitive_circle_add(radius=.7, fill_type='NGON', location=(.5, -2, level))
 bpy.context.object.data.materials.append(leaf)
 """
         settings = "settings.reflection = settings.shadow = settings.surroundings = settings.aovs = False\n"
         folder = self.wet("pool", POOL + settings, script=script)
-        dry, below = (Plate(folder / f"plates/{name}.0001.exr").color() for name in ("dry", "below"))
-        x, y = self.pixel_of(self.facts(folder), (.5, 0, 0))
-        self.assertTrue(self.is_red(dry[y, x]))
-        self.assertFalse(self.is_red(below[y, x]))
+        dry, below = (Plate(folder / f"plates/{name}.0001.exr") for name in ("dry", "below"))
+        for y in 0, -2:  # over the water, and exactly on it
+            x, y = self.pixel_of(self.facts(folder), (.5, y, 0))
+            around = slice(y - 1, y + 2), slice(x - 4, x + 5)
+            self.assertTrue(all(map(self.is_red, dry.color()[around].reshape(-1, 3))))
+            self.assertFalse(any(map(self.is_red, below.color()[around].reshape(-1, 3))))
+        x, y = self.pixel_of(self.facts(folder), (1.3, 1.46, 0))  # of the post, at the water
+        near = dry.depth()[y, x]
+        self.assertAlmostEqual(below.depth()[y - 1, x], near, delta=.2)
+        self.assertGreater(below.depth()[y - 4, x], near + .5)
 
     def of_the_wet_pool(self, wet):
         picture = wet.channels("R", "G", "B").astype(float)
@@ -203,6 +211,16 @@ settings.motion = 'NEXT'
             self.assertGreater(over.sum(), 100)
             self.assertLess((below < water - .3).sum(), .1 * over.sum())
             np.testing.assert_allclose(below[dry > water + .3], dry[dry > water + .3], atol=.1)
+
+    def test_a_shoal_that_only_troughs_of_the_waves_cut_keeps_its_strip(self):
+        script = "bpy.ops.mesh.primitive_cylinder_add(radius=4, depth=1, location=(0, -2, .3 - .5))\n"
+        folder = self.wet("sea", SMALL + "settings.water, settings.waves = bpy.data.objects['ocean'], 'OBJECT'\n"
+                          "settings.reflection = settings.shadow = settings.aovs = False\n", script=script)
+        self.assertGreater(self.facts(folder)["water"]["height"], .3)  # the shoal's
+        dry, below, water = (Plate(folder / f"plates/{name}.0001.exr").depth() for name in ("dry", "below", "surface"))
+        strip = (dry > water - .1) & (dry < water)  # a pixel is .075 wide
+        self.assertGreater(strip.sum(), 50)
+        np.testing.assert_allclose(below[strip], dry[strip], atol=.1)
 
     def test_a_linked_collection_is_cut_and_mirrored_like_the_rest(self):
         library = self.scene("pool")

@@ -5,8 +5,8 @@ FLAT = 0.1  # the least part of its area that a level face turns up
 
 
 def level_of(water, depsgraph):
-    """Mean height, by area, and largest height of the faces that face up; for a sheet that lies upside down,
-    of those that face down. None if the mesh has no such face."""
+    """Mean height, by area, least and largest height of the faces that face up; for a sheet that lies upside down, of those
+    that face down. None if the mesh has no such face."""
     evaluated = water.evaluated_get(depsgraph)
     mesh = evaluated.to_mesh()
     try:
@@ -20,7 +20,7 @@ def _level(mesh, world):
     turned = world.to_3x3().inverted_safe().transposed()
     for side in (1, -1):
         area = height = 0
-        top = None
+        lows, tops = [], []
         for face in mesh.polygons:
             up = side * (turned @ face.normal).normalized().z
             if up <= FLAT:
@@ -28,13 +28,15 @@ def _level(mesh, world):
             heights = [places[vertex].z for vertex in face.vertices]
             area += face.area * up
             height += face.area * up * sum(heights) / len(heights)
-            top = max(heights + ([] if top is None else [top]))
+            lows.append(min(heights))
+            tops.append(max(heights))
         if area > 0:
-            return height / area, top
+            return height / area, min(lows), max(tops)
     return None
 
 
-def crosses(thing, world, height):
-    """Whether the box around an object spans the height: the clip at the water then exposes its inside."""
+def crosses(thing, world, low, high):
+    """Whether the box around an object spans a height between `low` and `high`: the clip at the water then exposes its
+    inside."""
     heights = [(world @ Vector(corner)).z for corner in thing.bound_box]
-    return min(heights) < height < max(heights)
+    return min(heights) < high and max(heights) > low

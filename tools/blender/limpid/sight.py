@@ -7,7 +7,8 @@ import bpy
 
 from .sockets import add_socket
 
-CROSSING = "limpid_crossing"  # property of objects that the water cuts
+CROSSING = "limpid_crossing"  # property: 1 for objects that the water cuts, 0 for others
+LEAF = 0.05  # the part of the strip by which the water is lower for objects that it does not cut: they may lie exactly on it
 
 
 class _Group:
@@ -80,7 +81,7 @@ def cut_group():
     crossing = group.node("ShaderNodeAttribute", attribute_type="OBJECT", attribute_name=CROSSING)["Fac"]
     rise = group.math("MULTIPLY_ADD", group.number("spare"), group.node("ShaderNodeCameraData")["View Distance"],
                       group.number("spare_flat"))
-    rise = group.math("MULTIPLY", crossing, rise)
+    rise = group.math("MULTIPLY", rise, group.math("MULTIPLY_ADD", crossing, 1 + LEAF, -LEAF))
     limit = group.math("ADD", height, rise)
     z = group.node("ShaderNodeSeparateXYZ", here["Position"])[2]
     beyond = group.math("GREATER_THAN", group.math("MULTIPLY", side, z), group.math("MULTIPLY", side, limit))

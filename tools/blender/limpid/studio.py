@@ -151,14 +151,13 @@ class Studio:
         scene.frame_set(frame)
         camera = expect_camera(scene.camera)
         depsgraph = bpy.context.evaluated_depsgraph_get()
-        self.height, self.crest = self._levels(depsgraph)
+        self.height, self.trough, self.crest = self._levels(depsgraph)
         position, turn, _ = camera.matrix_world.decompose()
         self.world = Matrix.Translation(position) @ turn.to_matrix().to_4x4()
         self.source = camera
         projection = camera.calc_matrix_camera(depsgraph, x=self.size[0], y=self.size[1], scale_x=self.aspect[0],
                                                scale_y=self.aspect[1])
         self.pixel = 2 / (projection[0][0] * self.size[0])  # its width, at distance 1
-        self._mark_crossing(depsgraph)
         facts = SceneFacts(view=[list(row) for row in self.world.inverted()],
                            projection=[list(row) for row in projection], near=camera.data.clip_start,
                            far=camera.data.clip_end, height=self.height,
@@ -174,14 +173,14 @@ class Studio:
         if not self.job.water:
             far = 4 * self.scene.camera.data.clip_end
             self.sheet.matrix_world = Matrix.LocRotScale(Vector((0, 0, self.job.height)), None, Vector((far, far, 1)))
-            return self.job.height, self.job.height
+            return (self.job.height,) * 3
         level = level_of(self.water, depsgraph)
         if level is None:
             raise Failure(f"water '{self.water.name}' has no level face: expected a mesh with a level surface")
         if self.sheet == self.water:
             return level
         self._level(depsgraph, level[0])
-        return level[0], level[0]
+        return (level[0],) * 3
 
     def _level(self, depsgraph, height):
         """Gives the sheet the mesh of the water, all of it at the height: the water of the look has no waves of the mesh."""
@@ -193,10 +192,10 @@ class Studio:
         before, self.sheet.data = self.sheet.data, mesh
         bpy.data.meshes.remove(before)
 
-    def _mark_crossing(self, depsgraph):
-        crossing = {instance.object.original.name for instance in depsgraph.object_instances
-                    if instance.object.type in SHOWN
-                    and crosses(instance.object, instance.matrix_world, self.height)}
+    def mark_crossing(self, low, high):
+        """Marks the objects that water between the heights cuts."""
+        crossing = {instance.object.original.name for instance in bpy.context.evaluated_depsgraph_get().object_instances
+                    if instance.object.type in SHOWN and crosses(instance.object, instance.matrix_world, low, high)}
         for thing in bpy.data.objects:
             thing[CROSSING] = float(thing.name in crossing)
             thing.update_tag()
