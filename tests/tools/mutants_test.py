@@ -164,7 +164,14 @@ def check_run(root):
         expect("and the folders are named", str(refused).endswith("expected a file or folder of src/optics"))
 
 
+def check_project():
+    project = mutants.limpid()
+    for name, (old, new) in project.rewritten.items():
+        expect(f"{name} still has what is written anew for mutants", old in (project.root / name).read_text())
+
+
 check_sites()
+check_project()
 with tempfile.TemporaryDirectory() as folder:
     check_run(pathlib.Path(folder).resolve())
 print("mutants_test: all is so")
