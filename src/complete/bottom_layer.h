@@ -18,7 +18,7 @@ namespace limpid {
 /// Works in cells of a few pixels; their number is about the same for any size of picture. A grey
 /// closing of the depth below the water (Serra 1982, "Image Analysis and Mathematical Morphology"),
 /// by windows of three cells to a quarter of the picture, fills the cells of objects that stand on
-/// the bottom. The smallest window that fills an object gives its width, and a quarter of the width
+/// the bottom. The smallest window that fills an object gives its width, and a third of the width
 /// counts as its thickness. Walls that lead down from an object are its feet, and no bottom. A
 /// pyramid of means then extends the bottom over these cells and those of objects above the water,
 /// and in the same way the share of water without a bottom.

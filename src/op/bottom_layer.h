@@ -17,7 +17,7 @@ struct BottomLayer {
   static constexpr double kOfBottom = 0.75;
   /// Thickness of an object behind its visible side, as a share of its width: a ray that goes
   /// behind it passes the outline, where a round object is thinnest.
-  static constexpr double kThickness = 0.25;
+  static constexpr double kThickness = 1.0 / 3;
 
   Texture colors;
   /// Red: depth of the bottom below the calm surface, in scene units. Green: more than half where

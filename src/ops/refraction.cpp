@@ -27,7 +27,7 @@ constexpr Field<P> kFields[] = {
     choice<&P::off_frame, kOffFrames>("off_frame", "Treatment of rays that leave the picture."),
     real<&P::thickness>(
         "thickness", "scene units", {0, 1e6},
-        "Thickness of thin objects under water along the view; 0 is a quarter of their width.")
+        "Thickness of thin objects under water along the view; 0 is a third of their width.")
         .when("steps", {"march"}),
 };
 
