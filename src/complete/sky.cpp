@@ -31,9 +31,22 @@ struct Picture {
   bool is_sky(int x, int y) const {
     return !(depth.at(x, y) < 1e30f) && !(alpha && alpha.at(x, y) < 0.5f);
   }
+  /// Sky beside no object: in the color of other texels of the sky may be a part of an object,
+  /// because depth is from one sample of many.
+  bool is_clear(int x, int y) const {
+    for (int j = std::max(y - 1, window.y0); j < std::min(y + 2, window.y1); ++j) {
+      for (int i = std::max(x - 1, window.x0); i < std::min(x + 2, window.x1); ++i) {
+        if (!is_sky(i, j)) return false;
+      }
+    }
+    return true;
+  }
+  /// Sky that is not clear counts where there is no other around.
   Texel sky_at(int x, int y) const {
+    constexpr float kBesideObject = 1e-5f;
     if (!is_sky(x, y)) return {};
-    return {color[0].at(x, y), color[1].at(x, y), color[2].at(x, y), 1};
+    return {color[0].at(x, y), color[1].at(x, y), color[2].at(x, y),
+            is_clear(x, y) ? 1 : kBesideObject};
   }
 };
 
@@ -49,7 +62,7 @@ bool Sky::make(const Frame& frame, Executor& executor) {
   const auto& half = sky_.finest();
   each_row(executor, picture.window, [&](int y) {
     for (int x = picture.window.x0; x < picture.window.x1; ++x) {
-      const bool own = picture.is_sky(x, y);
+      const bool own = picture.is_clear(x, y);
       const Texel drawn_on =
           own ? Texel{} : half.between(x - picture.window.x0, y - picture.window.y0);
       for (std::size_t i = 0; i < 3; ++i) {
@@ -113,7 +126,7 @@ SkyChange sky_change(const Frame& frame, const Pass& pass) {
   std::array<Line, 3> of_elevation, of_both;
   for (int y = window.y0; y < window.y1; y += step_y) {
     for (int x = window.x0; x < window.x1; x += step_x) {
-      if (!picture.is_sky(x, y)) continue;
+      if (!picture.is_clear(x, y)) continue;
       const glm::dvec3 view =
           glm::normalize(pass.rays.ray_at(x - pass.corner.x + 0.5, y - pass.corner.y + 0.5));
       const double sine = glm::dot(pass.up, view);

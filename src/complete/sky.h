@@ -13,7 +13,8 @@
 namespace limpid {
 
 /// The sky of a frame behind its objects: the color where no surface was hit and alpha is above
-/// half, and elsewhere a smooth continuation of this color (pull_push.h).
+/// half, and elsewhere a smooth continuation of this color (pull_push.h). Beside an object, too: a
+/// texel there may show a part of the object.
 class Sky {
  public:
   /// Reads color and depth. False, without a result, if the frame shows no sky.

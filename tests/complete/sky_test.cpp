@@ -45,6 +45,35 @@ TEST(Sky, IsThePictureWhereThatShowsIt) {
   EXPECT_EQ(horizon.at(0, -3, 2), 1 + 0.02f * -3);
 }
 
+// A renderer's depth is from one sample of many: a texel without depth may show half of an object.
+TEST(Sky, BesideAThingIsNotThePicture) {
+  Horizon horizon;
+  const Rect blurred{7, 7, 21, 25};  // the block and a texel around it
+  for (int c = 0; c < 3; ++c) {
+    horizon.buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+      return blurred.contains({x, y, x + 1, y + 1}) ? 50.0f : 1.0f;
+    });
+  }
+  const auto executor = make_executor(1);
+  ASSERT_TRUE(horizon.sky.make(horizon.buffers.frame, *executor));
+  for (int y = 2; y < 25; ++y) {
+    for (int x = -3; x < 30; ++x) EXPECT_NEAR(horizon.at(0, x, y), 1, 0.01) << x << ", " << y;
+  }
+}
+
+// A sky of which no texel lies beside sky alone counts all the same.
+TEST(Sky, OfNarrowGapsIsTheirColor) {
+  Horizon gaps;
+  gaps.buffers.set(PlaneId::kDepth, [](int x, int) { return x % 3 == 0 ? kInf : 7.0f; });
+  for (int c = 0; c < 3; ++c) {
+    gaps.buffers.set(plane_after(PlaneId::kColorR, c),
+                     [](int x, int) { return x % 3 == 0 ? 1.0f : 100.0f; });
+  }
+  const auto executor = make_executor(1);
+  ASSERT_TRUE(gaps.sky.make(gaps.buffers.frame, *executor));
+  for (int x = -3; x < 30; ++x) EXPECT_NEAR(gaps.at(0, x, 4), 1, 1e-5);
+}
+
 TEST(Sky, GoesOnBehindThings) {
   Horizon horizon;
   const auto executor = make_executor(1);
