@@ -25,6 +25,14 @@ void take(PlaneSet made, PlaneId plane, const Plane& with, Frame& frame) {
   if (made.has(plane)) frame.planes[index_of(plane)] = with.view();
 }
 
+/// Whether mirrored rays look up the dry picture.
+bool mirrors_picture(const Plan& plan, PlaneSet planes, bool submersible) {
+  return plan.keeps<FresnelReflection>() &&
+         plan.look.of<FresnelReflection>().source == FresnelReflection::Source::kAuto &&
+         planes.covers(kColorPlanes | PlaneSet{PlaneId::kDepth}) &&
+         (submersible || !(planes & plan.planes).covers(kReflectionPlanes));
+}
+
 }  // namespace
 
 Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass,
@@ -42,6 +50,9 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
     take(made, PlaneId::kReflectionValid, mirror_depth_.valid(), whole);
   }
   complete_sky(made_by("sky", plan, frame), plan, pass, executor, whole);
+  if (mirrors_picture(plan, whole.present(), pass.submersible)) {
+    whole.edge_surfaces = edge_surfaces_.make(whole, pass, executor);
+  }
   complete_plate_waves(plan, frame.present() & plan.planes, pass, whole);
   complete_waves(plan, pass, executor, whole);
   complete_water(plan, made_by("bottom_albedo", plan, frame), true, pass, executor, whole);
@@ -122,6 +133,9 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
       (waves.model == WaveNormals::Model::kPlate ||
        (plan.planes.has(PlaneId::kSurfaceDepth) && !plan.completed.has(PlaneId::kSurfaceDepth)))) {
     phrases.emplace_back("waves that the plate's surface does not resolve (wave_normals.filter)");
+  }
+  if (mirrors_picture(plan, plan.planes, false)) {
+    phrases.emplace_back("what is mirrored from beyond the picture (fresnel_reflection.source)");
   }
   if (!plan.made.has(StatePart::kPosition)) return phrases;
   if (plan.look.of<Refraction>().continues_bottom()) {

@@ -14,6 +14,7 @@
 #include "complete/caustics_mirrored.h"
 #include "complete/continuation.h"
 #include "complete/displaced_surface.h"
+#include "complete/edge_surfaces.h"
 #include "complete/edges.h"
 #include "complete/mirror_depth.h"
 #include "complete/part_depths.h"
@@ -29,11 +30,12 @@ namespace limpid {
 /// Makes missing data from the planes that a frame has: the planes of Plan::completed; the slope
 /// map for pixels wider than a texel of the wave map; depths on the rays of a part of each pixel;
 /// the parts of pixels that objects in front of the water cover; the layer below the water,
-/// extended as far as color and depth; the continuation of the bottom for rays that leave the
-/// picture; the bottom behind objects, for rays that end there; multiple scattering; the table of
-/// caustics, and caustics in the reflection. Each only if the plan needs it. Runs once per frame,
-/// before its pixels; operators read the results like the plate's planes. The result does not
-/// depend on the number of threads. Keeps its memory from frame to frame.
+/// extended as far as color and depth; what stands at the edge of the picture, for mirrored rays
+/// that leave it; the continuation of the bottom for rays that leave the picture; the bottom behind
+/// objects, for rays that end there; multiple scattering; the table of caustics, and caustics in
+/// the reflection. Each only if the plan needs it. Runs once per frame, before its pixels;
+/// operators read the results like the plate's planes. The result does not depend on the number of
+/// threads. Keeps its memory from frame to frame.
 class Completer {
  public:
   /// The frame with the planes made for it; its views are valid until the next call. `pass` is
@@ -66,6 +68,7 @@ class Completer {
   BottomLayerMaker bottom_layer_;
   DisplacedSurface displaced_surface_;
   Edges edges_;
+  EdgeSurfacesMaker edge_surfaces_;
   PartDepths part_depths_;
   MirrorDepth mirror_depth_;
   Sky sky_;

@@ -1,6 +1,7 @@
 #pragma once
 #include "op/bottom_search.h"
 #include "op/pixel.h"
+#include "op/round_edge.h"
 
 /// @file
 /// The bottom beyond the edge of the picture, for rays that leave the picture under water.
@@ -21,9 +22,8 @@ struct Continuation {
   /// The edge's color has the weight e^(-fade pixels), the depth of its bottom e^(-settle pixels),
   /// by the distance of the ray's end from the edge in pixels.
   double fade, settle;
-  /// The remaining weight: colors near the edge, in the upper of two rows around the picture from
-  /// its upper left corner, to the right, down, to the left and up, a quarter of the row for each
-  /// side. Below them, in red, the height of the bottom near that edge over the plane.
+  /// The remaining weight: colors near the edge, in the upper of two rows around the picture
+  /// (op/round_edge.h). Below them, in red, the height of the bottom near that edge over the plane.
   Texture colors;
   static constexpr double kColorRow = 0.25, kHeightRow = 0.75;  ///< as places in `colors`
 };
@@ -145,15 +145,7 @@ class OffFrameRay {
 
   /// The coordinate of a place in Continuation::colors.
   F round_edge(Vec2<F> shift) const {
-    const Bounds& b = planes_.bounds;
-    const F x = saturate((p_.uv.x + shift.x - given<F>(b.low.x)) /
-                         given<F>(std::max(b.high.x - b.low.x, 1e-9), "continuation.width"));
-    const F y = saturate((p_.uv.y + shift.y - given<F>(b.low.y)) /
-                         given<F>(std::max(b.high.y - b.low.y, 1e-9), "continuation.height"));
-    const F left = x, right = F(1) - x, top = y, bottom = F(1) - y;
-    const F beside = select(left < right, F(0.75) + F(0.25) * bottom, F(0.25) + F(0.25) * top);
-    const F over = select(top < bottom, F(0.25) * left, F(0.5) + F(0.25) * right);
-    return select(min(left, right) < min(top, bottom), beside, over);
+    return limpid::round_edge(planes_.bounds, p_.uv + shift, "continuation.size");
   }
 
   static double dot_of(const glm::dvec3& a, const glm::dvec3& b) {

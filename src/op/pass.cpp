@@ -42,6 +42,7 @@ Pass::Pass(const Scene& scene, const Frame& frame, double index, StateSet parts,
       scattered_light(frame.scattered_light),
       sky_change(frame.sky_change),
       made(parts),
+      edge_surfaces(frame.edge_surfaces),
       continuation(frame.continuation),
       bottom_layer(frame.bottom_layer),
       caustics(frame.caustics) {

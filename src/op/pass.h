@@ -58,12 +58,13 @@ struct Pass : WaterView {
   /// Bounds on the texels that refraction may look up, if a runner has made them
   /// (complete/heights.h). They save lookups and change no result.
   HeightBound heights = {};
-  RangeBound mirrored = {};          ///< likewise, of the depths for mirrored marches
-  RangeBound lit = {};               ///< likewise, of the shadow on the surface
-  PlateWaves plate_waves = {};       ///< of the frame's own surface, where a runner has made it
-  const Continuation* continuation;  ///< the bottom beyond the picture, or null
-  const BottomLayer* bottom_layer;   ///< the bottom behind objects in front of it, or null
-  const CausticsTable* caustics;     ///< null if no completer has made it
+  RangeBound mirrored = {};           ///< likewise, of the depths for mirrored marches
+  RangeBound lit = {};                ///< likewise, of the shadow on the surface
+  PlateWaves plate_waves = {};        ///< of the frame's own surface, where a runner has made it
+  const EdgeSurfaces* edge_surfaces;  ///< what stands at the picture's edge, or null
+  const Continuation* continuation;   ///< the bottom beyond the picture, or null
+  const BottomLayer* bottom_layer;    ///< the bottom behind objects in front of it, or null
+  const CausticsTable* caustics;      ///< null if no completer has made it
   /// The water through which viewers in it see the light that the surface mirrors; nothing if no
   /// view begins in the water, or if no operator of the plan has a medium().
   std::optional<WaterMedium> medium = {};

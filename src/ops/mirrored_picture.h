@@ -2,8 +2,10 @@
 #include "limpid/ops/fresnel_reflection.h"
 
 #include "op/bilinear.h"
+#include "op/edge_surfaces.h"
 #include "op/mirror_search.h"
 #include "op/operator.h"
+#include "op/round_edge.h"
 #include "op/screen_ray.h"
 #include "op/water_medium.h"
 #include "optics/clear_sky.h"
@@ -195,55 +197,53 @@ struct MirroredPicture : FresnelReflection {
     return all;
   }
 
-  /// The light from beyond the picture, for `lanes`: the surface that the picture shows at its edge
-  /// goes on there, if the ray leaves the picture before it, in the share to which surfaces, not
-  /// sky, are seen to both sides. The texels of the edge next to the ray show where the ray meets
-  /// it.
+  /// The light from beyond the picture, for `lanes`: the surfaces that the picture shows at its
+  /// edge go on there, if the ray leaves the picture before them, in the share to which surfaces,
+  /// not sky, are seen around the place of the edge next to the ray: as far to both sides as the
+  /// ray is beyond the edge.
   template <class F, class Tap, class Mask>
   static Mirrored<F> goes_on(const Pass& c, const Pixel<F>& p, const Tap& tap,
                              const ScreenRay<F>& ray, const Mask& lanes, Mirrored<F> beyond) {
     constexpr int kGuesses = 2;
+    if (!c.edge_surfaces) return beyond;
+    const EdgeSurfaces& surfaces = *c.edge_surfaces;
     const F leaves = ray.s_at(reach_ahead(c, c.dry, p.uv, ray.across));
     const auto off =
         lanes && tap.wet() && p.side > F(0) && leaves < F(1e20) && ray.depth_step > F(0);
     if_any(off, [&] {
       const F edge = ray.depth_at(leaves);
-      F distance = leaves, seen(0);
-      Vec2<F> at = next_to(c, p, ray.shift_at(leaves));
-      const auto stands = [&](Vec2<F> there) {
-        seen = tap.nearest(PlaneId::kDepth, there);
-        return seen > edge && seen < F(1e30) && height_at(c, p, there, seen) > F(0);
+      Vec2<F> at{F(0), F(0)}, place = at;
+      Rgb<F> shape{F(0), F(0), F(0)};
+      F depth(0);
+      const auto look = [&](F distance) {
+        const Vec2<F> end = ray.shift_at(distance);
+        at = next_to(c, p, end);
+        const F x = given<F>(c.size.x) * (end.x - at.x), y = given<F>(c.size.y) * (end.y - at.y);
+        const F beyond_edge = sqrt(x * x + y * y) / given<F>(surfaces.reach);
+        constexpr int kRows = EdgeSurfaces::kRows;
+        place = {round_edge(c.dry, p.uv + at, "edge_surfaces.size"),
+                 F((kRows - 1.0) / kRows) * sqrt(min(beyond_edge, F(1))) + F(0.5 / kRows)};
+        shape = tap.lat_long_rgb(surfaces.shape, place);
+        depth = shape.g / max(shape.r, F(1e-6));
       };
-      auto meets = off && stands(at);
+      F distance = leaves;
+      look(distance);
       repeat<F>(kGuesses, [&] {
-        distance = max((seen - ray.depth) / max(ray.depth_step, F(1e-6)), leaves);
-        at = next_to(c, p, ray.shift_at(distance));
-        meets = meets && stands(at);
+        const F ahead = (depth - ray.depth) / max(ray.depth_step, F(1e-6));
+        distance = select(depth > edge, max(ahead, leaves), F(HUGE_VAL));
+        look(distance);
       });
+      const auto meets = off && depth > edge;
       if_any(meets, [&] {
-        const Vec2<F> apart = ray.shift_at(distance) - at;
-        const F width = given<F>(c.size.x), height = given<F>(c.size.y);
-        const auto upright = is_upright(c, ray.across);
-        const Vec2<F> aside{select(upright, abs(apart.y) * height / width, F(0)),
-                            select(upright, F(0), abs(apart.x) * width / height)};
-        // The share of surfaces beside that place; sky in two of the four places ends them all.
-        F stand(0);
-        for (const double share : {-1.0, -0.5, 0.5, 1.0}) {
-          const auto quad = tap.quad(next_to(c, p, at + F(share) * aside));
-          const Four<F> depths = tap.read(PlaneId::kDepth, quad);
-          for (int k = 0; k < 4; ++k) {
-            stand = stand + F(0.25) * select(depths[k] < F(1e30), quad.weight(k), F(0));
-          }
-        }
-        const F goes = saturate(F(2) * stand - F(1));
-        // Of heights of which nothing is known but that they are larger, half are more than twice
-        // as large.
-        const F known = height_at(c, p, at, seen);
+        // Gaps of sky are wider beyond the edge than at the edge. Of heights of which nothing is
+        // known but that they are larger, half are more than twice as large.
+        const F goes = saturate(F(2) * shape.r / max(shape.b, F(1e-6)) - F(1));
+        const F known = max(height_at(c, p, at, depth), F(0));
         const F wanted = height_at(c, p, ray.shift_at(distance), ray.depth_at(distance));
-        const F share = select(meets, goes * min(known / max(wanted, F(1e-6)), F(1)), F(0));
-        const Rgb<F> shown = bilinear_rgb<F>(tap, PlaneId::kColorR, at);
-        const F rest = F(1) - share;
-        beyond = {rest * beyond.light + share * shown,
+        const F higher = min(known / max(wanted, F(1e-6)), F(1));
+        const F share = select(meets, goes * goes * higher, F(0)), rest = F(1) - share;
+        const Rgb<F> shown = tap.lat_long_rgb(surfaces.colors, place);
+        beyond = {rest * beyond.light + (share / max(shape.r, F(1e-6))) * shown,
                   rest * beyond.sources + share * from_picture<F>()};
       });
     });

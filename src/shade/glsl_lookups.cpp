@@ -383,6 +383,10 @@ std::string texture_sampler(int texture) {
       return "limpid_slope_means";
     case TextureId::kEnvironment:
       return "limpid_environment";
+    case TextureId::kEdgeColors:
+      return "limpid_edge_colors";
+    case TextureId::kEdgeShape:
+      return "limpid_edge_shape";
     case TextureId::kContinuation:
       return "limpid_continuation";
     case TextureId::kBottomColors:

@@ -5,6 +5,7 @@
 #include "op/bottom_layer.h"
 #include "op/caustics_table.h"
 #include "op/continuation.h"
+#include "op/edge_surfaces.h"
 #include "run/plain_taps.h"
 
 namespace limpid {
@@ -95,6 +96,10 @@ void Interpreter::run_node(int id, const At& at) {
         return pass_.wave_map;
       case TextureId::kEnvironment:
         return pass_.environment;
+      case TextureId::kEdgeColors:
+        return pass_.edge_surfaces->colors;
+      case TextureId::kEdgeShape:
+        return pass_.edge_surfaces->shape;
       case TextureId::kContinuation:
         return pass_.continuation->colors;
       case TextureId::kBottomColors:

@@ -3,6 +3,7 @@
 #include "op/bottom_layer.h"
 #include "op/caustics_table.h"
 #include "op/continuation.h"
+#include "op/edge_surfaces.h"
 #include "optics/scattered_light.h"
 
 namespace limpid {
@@ -69,6 +70,9 @@ void NameTable::add_view(const Pass& pass) {
 }
 
 void NameTable::add_made(const Pass& pass) {
+  if (const EdgeSurfaces* surfaces = pass.edge_surfaces) {
+    add("edge_surfaces.reach", surfaces->reach);
+  }
   if (const Continuation* on = pass.continuation) {
     add_three("continuation.normal", on->normal);
     add("continuation.offset", on->offset), add("continuation.least_drop", on->least_drop);

@@ -10,6 +10,7 @@
 #include "op/bottom_layer.h"
 #include "op/caustics_table.h"
 #include "op/continuation.h"
+#include "op/edge_surfaces.h"
 #include "shade/glsl_lookups.h"
 #include "shade/record.h"
 #include "shade/uniform_block.h"
@@ -340,6 +341,12 @@ class Writer {
     };
     if (looks_up(NodeOp::kLatLong, TextureId::kEnvironment)) {
       lat_long(TextureId::kEnvironment, pass_.environment);
+    }
+    if (looks_up(NodeOp::kLatLong, TextureId::kEdgeColors)) {
+      lat_long(TextureId::kEdgeColors, pass_.edge_surfaces->colors);
+    }
+    if (looks_up(NodeOp::kLatLong, TextureId::kEdgeShape)) {
+      lat_long(TextureId::kEdgeShape, pass_.edge_surfaces->shape);
     }
     if (looks_up(NodeOp::kLatLong, TextureId::kContinuation)) {
       lat_long(TextureId::kContinuation, pass_.continuation->colors);

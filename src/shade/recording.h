@@ -88,6 +88,8 @@ enum class TextureId : std::uint8_t {
   kWaveMap,
   kWaveSlopes,
   kEnvironment,
+  kEdgeColors,
+  kEdgeShape,
   kContinuation,
   kBottomColors,
   kBottomShape,

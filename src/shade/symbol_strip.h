@@ -4,6 +4,7 @@
 #include "op/bottom_layer.h"
 #include "op/caustics_table.h"
 #include "op/continuation.h"
+#include "op/edge_surfaces.h"
 #include "op/pass.h"
 #include "op/pixel.h"
 #include "shade/symbol.h"
@@ -171,6 +172,8 @@ class SymbolStrip {
     const auto id = [](TextureId name) { return static_cast<int>(name); };
     if (is(pass_.wave_map)) return id(TextureId::kWaveMap);
     if (is(pass_.environment)) return id(TextureId::kEnvironment);
+    if (pass_.edge_surfaces && is(pass_.edge_surfaces->colors)) return id(TextureId::kEdgeColors);
+    if (pass_.edge_surfaces && is(pass_.edge_surfaces->shape)) return id(TextureId::kEdgeShape);
     if (pass_.continuation && is(pass_.continuation->colors)) return id(TextureId::kContinuation);
     if (pass_.bottom_layer && is(pass_.bottom_layer->colors)) return id(TextureId::kBottomColors);
     if (pass_.bottom_layer && is(pass_.bottom_layer->shape)) return id(TextureId::kBottomShape);

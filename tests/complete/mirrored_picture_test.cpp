@@ -95,49 +95,35 @@ TEST(MirroredPicture, GoesOnBeyondItsEdge) {
   }
 }
 
-// Where one of the four places beside it shows sky, half of it goes on: a wall that ended at the
-// first gap would draw the outline of that gap into the mirror.
-TEST(MirroredPicture, GoesOnHalfBesideItsNearerEnd) {
-  Poles tower(-1, {0, 0.2}, 19, 140, 180);  // no wall but that
-  tower.buffers.set(PlaneId::kDepth, [&](int x, int y) {
-    return tower.is_pole(x, y) ? 19.0f : tower.ray(x, y).y < 0 ? tower.depth(x, y) : kInf;
-  });
-  int halves = 0;
-  const int x = 150;
-  const double edge = 2 + 19 * tower.ray(x, 0).y,
-               pixel = 19 * (tower.ray(x, 0) - tower.ray(x, 1)).y;
-  tower.each([&](int column, int y, float color) {
-    const double height = tower.mirrored_at(x, y, 19).y, over = (height - edge) / pixel;
-    if (column != x || over < 9 || over > 16) return;
-    EXPECT_NEAR(color, kSky + 0.5 * edge / height * (kInside - kSky), 0.1) << y;
-    ++halves;
-  });
-  EXPECT_GT(halves, 2);
-}
-
-// Something narrow goes on only as far as it is wide, like a tree whose top the edge cuts.
+// Something narrow goes on only as far as it is wide, like a tree whose top the edge cuts; the more
+// sky is beside it within the ray's distance from the edge, the less.
 TEST(MirroredPicture, GoesOnAsFarAsItIsWide) {
   Poles tower(-1, {0, 0.2}, 19, 140, 180);  // no wall but that
   tower.buffers.set(PlaneId::kDepth, [&](int x, int y) {
     return tower.is_pole(x, y) ? 19.0f : tower.ray(x, y).y < 0 ? tower.depth(x, y) : kInf;
   });
-  int seen = 0, skies = 0;
-  const int x = 160;
-  const double edge = 2 + 19 * tower.ray(x, 0).y,
-               pixel = 19 * (tower.ray(x, 0) - tower.ray(x, 1)).y;
-  tower.each([&](int column, int y, float color) {
-    if (column != x) return;
-    const double height = tower.mirrored_at(x, y, 19).y, over = (height - edge) / pixel;
-    if (over > 2 && over < 15) {
-      EXPECT_NEAR(color, kSky + edge / height * (kInside - kSky), 0.1) << y;
-      ++seen;
+  int whole = 0, partly = 0, skies = 0;
+  tower.each([&](int x, int y, float color) {
+    if (x != 150 && x != 160) return;
+    const double edge = 2 + 19 * tower.ray(x, 0).y, height = tower.mirrored_at(x, y, 19).y;
+    const double over = (height - edge) / (19 * (tower.ray(x, 0) - tower.ray(x, 1)).y);
+    if (over < 3) return;
+    const auto shown = [&](double reach) {
+      const double begin = std::max(140.0, x - reach), end = std::min(180.0, x + 1 + reach);
+      const double goes = std::max(2 * (end - begin) / (2 * reach + 1) - 1, 0.0);
+      return kSky + goes * goes * edge / height * (kInside - kSky);
+    };
+    const double off = 1.5 + over / 4;  // the table has rows, with means over whole texels
+    EXPECT_LE(color, shown(std::max(over - off, 0.0)) + 0.5) << x << ", " << y << ": " << over;
+    EXPECT_GE(color, shown(over + off) - 0.5) << x << ", " << y << ": " << over;
+    const double goes = (shown(over) - kSky) / (edge / height * (kInside - kSky));
+    if (over > 48) {
+      EXPECT_EQ(color, kSky) << x << ", " << y;
     }
-    if (over > 25) {
-      EXPECT_EQ(color, kSky) << y;
-      ++skies;
-    }
+    (goes <= 0 ? skies : goes > 0.999 ? whole : partly) += 1;
   });
-  EXPECT_GT(seen, 2);
+  EXPECT_GT(whole, 4);
+  EXPECT_GT(partly, 4);
   EXPECT_GT(skies, 10);
 }
 
@@ -155,7 +141,7 @@ TEST(MirroredPicture, MeetsTheWallBehindAPole) {
         if (poles.water(x, y) < 9 || at.y < 0.3 || std::abs(at.y - top) < 0.3) return;
         // A ray that begins right beside the pole and comes out before the sky is not found.
         if (near(150) || near(170) || (top < 4 && x > 147 && x < 150)) return;
-        EXPECT_EQ(color, at.y < top ? kWall : kSky)
+        EXPECT_FLOAT_EQ(color, at.y < top ? kWall : kSky)
             << top << ", " << aside << ", " << x << ", " << y;
         behind += column > 150 && column < 170;
       });

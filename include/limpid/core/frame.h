@@ -120,6 +120,7 @@ inline constexpr PlaneSet kBelowPlanes{PlaneId::kBelowR, PlaneId::kBelowG, Plane
 struct BottomLayer;
 struct CausticsTable;
 struct Continuation;
+struct EdgeSurfaces;
 struct EdgeCover;
 struct ScatteredLight;
 struct SlopeLevels;
@@ -176,6 +177,8 @@ struct Frame {
   std::optional<Rgb<double>> sky_radiance;
   /// How the planes of the sky go on beyond their edge; none, or made by complete/.
   SkyChange sky_change;
+  /// What stands at the edge of the picture above the water; null, or made by complete/.
+  const EdgeSurfaces* edge_surfaces = nullptr;
   /// The bottom beyond the picture; null, or made by complete/.
   const Continuation* continuation = nullptr;
   /// The bottom behind the objects in front of it; null, or made by complete/.

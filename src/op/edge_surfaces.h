@@ -1,0 +1,25 @@
+#pragma once
+#include "limpid/core/frame.h"
+
+/// @file
+/// What stands at the edge of the picture above the water, for mirrored rays that leave the
+/// picture.
+
+namespace limpid {
+
+/// Means of the surfaces above the water that the picture shows along its edge. Columns run
+/// around the picture as in op/round_edge.h. The first row has single texels; in row r of the
+/// others a mean reaches `reach (r / (kRows - 1))^2` pixels to both sides. Made by complete/ for
+/// frames whose dry picture is mirrored.
+struct EdgeSurfaces {
+  static constexpr int kRows = 16;
+  /// Their light times their share.
+  Texture colors;
+  /// Red: the share of such surfaces. Green: their eye depth times their share, in scene units; a
+  /// mean weighted by the depth, because things near the eye hide what is mirrored.
+  /// Blue: the share of surfaces and sky above the water.
+  Texture shape;
+  double reach;
+};
+
+}  // namespace limpid
