@@ -103,6 +103,9 @@ constexpr float kFoot = 0.15f;
 /// horizon.
 constexpr double kLine = 3;
 
+/// A texel so many pixels above the water line shows in part what the mirror saw beside the object.
+constexpr double kMixed = 1;
+
 /// Height of a pixel on a surface at an eye depth.
 double pixel_height(const WaterView& c, double depth) {
   const auto step = [&](const glm::dvec3& origin, const glm::dvec3& ray) {
@@ -126,8 +129,9 @@ void tell_real(const WaterView& c, const View<const float>& dry, const View<cons
       return (!told_real && heights.at(at_x, behind) * c.eye_above <= 0) ||
              height < kLine * pixel_height(c, stands);
     };
-    const bool inside =
-        stands < 1e30f && height > 0 && (!(seen > 0 && seen < kNothing) || is_seen_through());
+    const bool inside = stands < 1e30f && height > 0 &&
+                        (height < kMixed * pixel_height(c, stands) ||
+                         !(seen > 0 && seen < kNothing) || is_seen_through());
     image.at(x, y) = inside ? stands : std::abs(seen);
     to.at(x, y) = inside ? 0.0f : given ? given.at(x, y) : 1.0f;
   }

@@ -152,7 +152,7 @@ struct MirroredLight : MirroredPicture {
     const Vec2<F> infinity = place_at(c, p, own, F(HUGE_VAL));
     const F end_depth = tap.nearest(PlaneId::kReflectionDepth, infinity);
     const auto strays = hit < F(1) && passes_behind(c, p, own, infinity, end_depth);
-    const Vec2<F> far = far_landing(c, p, tap, own, infinity, end_depth, strays);
+    const Landing<F> far = far_landing(c, p, tap, own, infinity, end_depth, strays);
     // Where the mirror saw into an object, the picture shows the outside at the same place.
     const auto from_outside = [&](const auto& meets_it, Mirrored<F> seen) {
       if (!c.planes.has(PlaneId::kReflectionValid) || !c.planes.covers(kColorPlanes)) return seen;
@@ -169,13 +169,13 @@ struct MirroredLight : MirroredPicture {
       return seen;
     };
     Mirrored<F> seen =
-        from_outside(whole, seen_at(c, p, tap, n, {select(whole, met, far), F(HUGE_VAL)}));
+        from_outside(whole, seen_at(c, p, tap, n, {select(whole, met, far.place), F(HUGE_VAL)}));
     const auto lacks = seen.sources.b > F(kLacks);
     if (c.environment) {
       const auto misses = hit < F(1);
       if_any(misses, [&] { seen = beyond_edge(c, p, tap, n, own, misses, seen); });
     }
-    seen = shown_instead(c, p, tap, n, (hit <= F(0) && strays) || lacks, seen);
+    seen = shown_instead(c, p, tap, n, (hit <= F(0) && strays) || lacks, far.none, seen);
     if_any(parted, [&] {
       const Mirrored<F> there = from_outside(parted, seen_at(c, p, tap, n, {met, F(HUGE_VAL)}));
       const F share = select(parted, hit, F(0));
@@ -186,10 +186,11 @@ struct MirroredLight : MirroredPicture {
   }
 
   /// What the picture shows of the rays of `lanes`, which pass behind a surface of the planes, or
-  /// end where the planes have no data, as at an object's foot.
+  /// end where the planes have no data, as at an object's foot. `none`: 1 where the planes show
+  /// nothing for a ray that meets nothing: then it is what the picture shows in its direction.
   template <class F, class Tap, class Mask>
   static Mirrored<F> shown_instead(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
-                                   const Mask& lanes, Mirrored<F> seen) {
+                                   const Mask& lanes, F none, Mirrored<F> seen) {
     if (!c.planes.covers(kColorPlanes)) return seen;
     const auto wanted = tap.wet() && lanes;
     if_any(wanted, [&] {
@@ -197,6 +198,17 @@ struct MirroredLight : MirroredPicture {
       const auto met = wanted && there.hit > F(0.5);
       seen.light = select(met, there.light, seen.light);
       seen.sources = select(met, from_picture<F>(), seen.sources);
+      const auto lost = wanted && !met && none > F(0.5);
+      if_any(lost, [&] {
+        const ScreenRay<F> ray(c, p, mirrored_ray(c, p, n));
+        const Vec2<F> at = next_to(c, p, ray.shift_at(F(HUGE_VAL)));
+        const F depth = tap.nearest(PlaneId::kDepth, at);
+        const auto shown = lost && (nothing(depth) || height_at(c, p, at, depth) > F(0));
+        const Rgb<F> far{tap.nearest(PlaneId::kColorR, at), tap.nearest(PlaneId::kColorG, at),
+                         tap.nearest(PlaneId::kColorB, at)};
+        seen.light = select(shown, far, seen.light);
+        seen.sources = select(shown, from_picture<F>(), seen.sources);
+      });
     });
     return seen;
   }
@@ -235,10 +247,16 @@ struct MirroredLight : MirroredPicture {
   /// rays that meet nothing, and of which passes_behind() is true. What stands nearer to
   /// the viewer than the pixel's water is certainly not mirrored there: then the places beyond it
   /// count, too, which have a higher sky.
+  template <class F>
+  struct Landing {
+    Vec2<F> place;
+    F none;  ///< 1 where it is the pixel itself, for want of another place
+  };
   template <class F, class Tap, class Mask>
-  static Vec2<F> far_landing(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                             const ScreenRay<F>& ray, Vec2<F> far, F seen, const Mask& strays) {
+  static Landing<F> far_landing(const Pass& c, const Pixel<F>& p, const Tap& tap,
+                                const ScreenRay<F>& ray, Vec2<F> far, F seen, const Mask& strays) {
     Vec2<F> landing = far;
+    F none(0);
     if_any(strays, [&] {
       F open = select(strays, F(1), F(0));
       const auto take = [&](const auto& wanted, Vec2<F> at) {
@@ -257,8 +275,9 @@ struct MirroredLight : MirroredPicture {
         return open > F(0.5);
       });
       landing = select(open > F(0.5), Vec2<F>{F(0), F(0)}, landing);
+      none = open;
     });
-    return landing;
+    return {landing, none};
   }
   static constexpr int kPlaces = 6;  ///< on each side
   /// Pixels. The depth that complete/mirror_depth.h makes is two pixels wider than its objects.

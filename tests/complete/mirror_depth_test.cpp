@@ -148,6 +148,27 @@ TEST(MirrorDepth, ARayAlongTheWaterMeetsAFarBankAtItsLine) {
   EXPECT_GT(over, 100);
 }
 
+// A texel at the line shows a part of what the mirror saw under the object, whatever its depth.
+TEST(MirrorDepth, TheTexelAtTheLineIsNotReal) {
+  Shore shore;
+  shore.buffers.fill(PlaneId::kReflectionDepth, 20);
+  shore.buffers.fill(PlaneId::kReflectionValid, 1);
+  const auto executor = make_executor(1);
+  const MirrorDepth& made = shore.made(*executor);
+  int line = 0;
+  for (int y = 1; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const double height = 2 + 20 * shore.ray(x, y).y;
+      const double pixels = height / (20 * (shore.ray(x, y - 1).y - shore.ray(x, y).y));
+      const bool at_line = shore.dry_depth(x, y) == 20 && height > 0 && pixels < 1;
+      EXPECT_EQ(made.depth().view().at(x, y), 20) << x << ", " << y;
+      EXPECT_EQ(made.valid().view().at(x, y), at_line ? 0 : 1) << x << ", " << y;
+      line += at_line;
+    }
+  }
+  EXPECT_EQ(line, kSize.width);
+}
+
 TEST(MirrorDepth, NothingStandsInTheOpenSea) {
   Shore shore;
   shore.buffers.set(PlaneId::kDepth, [&](int x, int y) {

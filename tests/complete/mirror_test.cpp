@@ -261,5 +261,31 @@ TEST(AutoMirror, MeetsARidgeOnlyWhereItsRaysPassBelowIt) {
   }
 }
 
+// A jetty right before the viewer hides the whole mirrored scene: its texels are not what is seen
+// past it.
+TEST(AutoMirror, ShowsThePictureInTheDirectionOfWhatTheReflectionHides) {
+  Mirror shore;
+  for (const PlaneId id : {PlaneId::kReflectionR, PlaneId::kReflectionG, PlaneId::kReflectionB}) {
+    shore.buffers.fill(id, 50);
+  }
+  shore.buffers.fill(PlaneId::kReflectionDepth, 1).fill(PlaneId::kReflectionValid, 1);
+  shore.buffers.normal({0, std::cos(0.1), std::sin(0.1)});  // a level mirror shows its own texel
+  const test::Picture picture = shore.pictures();
+  int skies = 0, walls = 0;
+  // Beside the edge a ray's place is too near to the pixel to tell.
+  for (int y = 0; y < Shore::kSize.height - 4; ++y) {
+    for (int x = 4; x < Shore::kSize.width - 4; ++x) {
+      if (!shore.wet(x, y)) continue;
+      const double color = picture.color(x, y).r;
+      EXPECT_GE(color, kWall) << x << ", " << y;
+      EXPECT_LE(color, kSky) << x << ", " << y;
+      skies += color == kSky;
+      walls += color == kWall;
+    }
+  }
+  EXPECT_GT(skies, 50);
+  EXPECT_GT(walls, 50);
+}
+
 }  // namespace
 }  // namespace limpid
