@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <tuple>
 
 #include "complete/row_heights.h"
 #include "complete/rows.h"
@@ -11,11 +10,13 @@
 namespace limpid {
 namespace {
 
-/// A side has as many columns as the longer side has texels, but no more than this.
-constexpr int kMostColumns = 2048;
+/// A side has as many columns as the longer side has texels, but no more than this: Vulkan promises
+/// textures of 4096 texels, of which two repeat the outermost.
+constexpr int kMostColumns = 1023;
 /// Depths are counted up to this, in scene units: beyond, a surface is as good as infinitely far.
 constexpr double kFarthest = 1e6;
-constexpr double kBrightest = 1e30;  // infinite light would leave no number in differences of sums
+/// Light is counted up to the largest half: in sums of larger numbers the rest would be lost.
+constexpr float kBrightest = 65504;
 
 /// The outermost texels of a window, in the order of op/round_edge.h.
 class EdgeTexels {
@@ -23,6 +24,7 @@ class EdgeTexels {
   EdgeTexels(const Rect& window, int columns) : w_(window), columns_(columns) {}
 
   int length(int side) const { return side % 2 == 0 ? w_.width() : w_.height(); }
+  double around() const { return 2.0 * (w_.width() + w_.height()); }
   /// Calls see(x, y) for each texel of a column of a side: one or more.
   template <class See>
   void each_of(int side, int column, const See& see) const {
@@ -45,6 +47,23 @@ class EdgeTexels {
           see(w_.x0, w_.y1 - 1 - i);
       }
     }
+  }
+  /// Where a column begins, in pixels around the window.
+  double begin_of(int column) const {
+    const int side = column / columns_;
+    double begin = 0;
+    for (int i = 0; i < side; ++i) begin += length(i);
+    return begin + step_of(column) * (column % columns_);
+  }
+  /// Pixels of a column.
+  double step_of(int column) const { return double(length(column / columns_ % 4)) / columns_; }
+  /// The column at a place in pixels, and what is left of it, in columns: 0 to below 4 sides.
+  double column_at(double pixels) const {
+    for (int side = 0; side < 4; ++side) {
+      if (pixels < length(side)) return columns_ * (side + pixels / length(side));
+      pixels -= length(side);
+    }
+    return 4.0 * columns_;
   }
 
  private:
@@ -73,21 +92,23 @@ const EdgeSurfaces* EdgeSurfacesMaker::make(const Frame& frame, const Pass& pass
       const double z = depth.at(x, y);
       const RowHeights heights(pass, y);
       if (!(z < 1e30)) {
-        sum[4] += heights.under + x * heights.under_step > 0;
+        sum[kAbove] += heights.under + x * heights.under_step > 0;
         return;
       }
       if (!(heights.at(x, z) > 0)) return;
       for (int c = 0; c < 3; ++c) {
-        const double light = frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
+        const float light = frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
         sum[static_cast<std::size_t>(c)] += std::clamp(light, -kBrightest, kBrightest);
       }
-      sum[3] += 1;
-      sum[4] += 1;
-      sum[5] += std::min(z, kFarthest);
-      sum[6] += std::min(z, kFarthest) * std::min(z, kFarthest);
+      sum[kStands] += 1;
+      sum[kAbove] += 1;
+      sum[kDepth] += std::min(z, kFarthest);
+      sum[kSquare] += std::min(z, kFarthest) * std::min(z, kFarthest);
     });
     const auto at = static_cast<std::size_t>(i);
-    for (std::size_t k = 0; k < sum.size(); ++k) sums_[at + 1][k] = sums_[at][k] + sum[k] / count;
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      sums_[at + 1][k] = sums_[at][k] + texels.step_of(i) * sum[k] / count;
+    }
   }
 
   for (Plane& plane : planes_) {
@@ -96,26 +117,35 @@ const EdgeSurfaces* EdgeSurfacesMaker::make(const Frame& frame, const Pass& pass
   }
   surfaces_.reach = 0.5 * longer;
   each_row(executor, {0, 0, around, EdgeSurfaces::kRows}, [&](int row) {
-    const double part = row / (EdgeSurfaces::kRows - 1.0), pixels = surfaces_.reach * part * part;
+    const double part = row / (EdgeSurfaces::kRows - 1.0);
     for (int i = 0; i < around; ++i) {
-      const double step = double(columns) / texels.length(i / columns);
-      const int half = std::min(static_cast<int>(std::lround(pixels * step)), around / 2 - 1);
-      // The sum up to a place before the first or behind the last column.
-      const auto up_to = [&](int place, std::size_t k) {
-        const int turns = place < 0 ? -1 : place > around ? 1 : 0;
-        return turns * sums_.back()[k] + sums_[static_cast<std::size_t>(place - turns * around)][k];
+      const double own = 0.5 * texels.step_of(i), middle = texels.begin_of(i) + own;
+      const double half =
+          std::min(std::max(surfaces_.reach * part * part, own), 0.5 * texels.around());
+      // The sum up to a place, which may be before the first column or behind the last.
+      const auto up_to = [&](double pixels) {
+        const double turns = std::floor(pixels / texels.around());
+        const double column = texels.column_at(pixels - turns * texels.around());
+        const int whole = std::clamp(static_cast<int>(column), 0, around - 1);
+        const Numbers &before = sums_[static_cast<std::size_t>(whole)],
+                      &after = sums_[static_cast<std::size_t>(whole) + 1];
+        Numbers sum;
+        for (std::size_t k = 0; k < sum.size(); ++k) {
+          sum[k] = turns * sums_.back()[k] + before[k] + (column - whole) * (after[k] - before[k]);
+        }
+        return sum;
       };
-      const auto mean = [&](std::size_t k) {
-        return (up_to(i + half + 1, k) - up_to(i - half, k)) / (2 * half + 1);
-      };
+      const Numbers first = up_to(middle - half), last = up_to(middle + half);
+      const auto mean = [&](std::size_t k) { return (last[k] - first[k]) / (2 * half); };
       const auto put = [&](std::size_t plane, double value) {
         planes_[plane].view().at(i, row) = static_cast<float>(value);
       };
       for (std::size_t c = 0; c < 3; ++c) put(c, mean(c));
-      const double share = std::max(mean(3), 0.0), depths = mean(5);
+      // Differences of sums are not exact.
+      const double share = std::clamp(mean(kStands), 0.0, 1.0), depths = mean(kDepth);
       put(3, share);
-      put(4, depths > 0 ? share * std::max(mean(6), 0.0) / depths : 0);
-      put(5, std::max(mean(4), 0.0));
+      put(4, share > 1e-9 && depths > 0 ? share * std::max(mean(kSquare), 0.0) / depths : 0);
+      put(5, std::clamp(mean(kAbove), 0.0, 1.0));
     }
   });
   for (std::size_t k = 0; k < 3; ++k) {

@@ -18,14 +18,14 @@ class EdgeSurfacesMaker {
   const EdgeSurfaces* make(const Frame& frame, const Pass& pass, Executor& executor);
 
  private:
-  /// Of a place at the edge: red, green, blue and 1 of a surface above the water, 0 without one; 1
-  /// of surface or sky; depth of the surface, and its square. Or sums of them from the first place
-  /// on.
-  using Numbers = std::array<double, 7>;
+  /// Sums over pixels, from the first column on: red, green and blue of surfaces above the water,
+  /// and what the names say.
+  enum : std::size_t { kStands = 3, kAbove, kDepth, kSquare, kNumbers };
+  using Numbers = std::array<double, kNumbers>;
 
   EdgeSurfaces surfaces_;
   std::array<Plane, 6> planes_;  ///< colors, then shape
-  std::vector<Numbers> sums_;
+  std::vector<Numbers> sums_;    ///< one more than columns
 };
 
 }  // namespace limpid

@@ -103,7 +103,8 @@ constexpr float kFoot = 0.15f;
 /// horizon.
 constexpr double kLine = 3;
 
-/// A texel so many pixels above the water line shows in part what the mirror saw beside the object.
+/// A texel within this height of the water, in pixels, shows in part what the mirror saw under the
+/// object.
 constexpr double kMixed = 1;
 
 /// Height of a pixel on a surface at an eye depth.

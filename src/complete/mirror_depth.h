@@ -22,9 +22,9 @@ namespace limpid {
 /// pixel with a dry object in front of the water counts as such an inside if no mirror image is
 /// known there, and the water behind the object is at most 0.15 of the object's depth farther away:
 /// the mirror image would show through the foot of the object. A pixel within three pixels of the
-/// object's water line counts as an inside, too, if the mirror image there is farther, even if the
-/// reflection marks it as valid. An inside is not valid, and a ray that reaches it has met the
-/// object.
+/// object's water line counts as an inside, too, if the mirror image there is farther, and within
+/// one pixel of it in any case, even if the reflection marks it as valid. An inside is not valid,
+/// and a ray that reaches it has met the object.
 class MirrorDepth {
  public:
   /// Reads depth, the window of the reflection, and reflection_depth and reflection_valid if

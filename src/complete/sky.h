@@ -39,7 +39,7 @@ class Sky {
 /// do so all the way, a dusty one over its horizon alone. Around the sun the sky brightens at most
 /// as the standard does (kMostSkyGlow), because a few degrees over the horizon tell little of it. A
 /// color brightens only as far as all three do: blue that grows over a hazy horizon soon falls
-/// again. None if the frame shows no sky, or one elevation of it.
+/// again. None if the frame shows no sky but beside objects, or one elevation of it.
 SkyChange sky_change(const Frame& frame, const Pass& pass);
 constexpr double kMostSkyFall = 1.5, kMostSkyGain = 0.4, kMostSkyGlow = 1;
 

@@ -8,8 +8,8 @@
 namespace limpid {
 
 /// Means of the surfaces above the water that the picture shows along its edge. Columns run
-/// around the picture as in op/round_edge.h. The first row has single texels; in row r of the
-/// others a mean reaches `reach (r / (kRows - 1))^2` pixels to both sides. Made by complete/ for
+/// around the picture as in op/round_edge.h. In row r a mean reaches `reach (r / (kRows - 1))^2`
+/// pixels to both sides, over corners, too, but over one column at least. Made by complete/ for
 /// frames whose dry picture is mirrored.
 struct EdgeSurfaces {
   static constexpr int kRows = 16;

@@ -175,7 +175,7 @@ struct MirroredLight : MirroredPicture {
       const auto misses = hit < F(1);
       if_any(misses, [&] { seen = beyond_edge(c, p, tap, n, own, misses, seen); });
     }
-    seen = shown_instead(c, p, tap, n, (hit <= F(0) && strays) || lacks, far.none, seen);
+    seen = shown_instead(c, p, tap, n, (hit <= F(0) && strays) || lacks, far.lost, seen);
     if_any(parted, [&] {
       const Mirrored<F> there = from_outside(parted, seen_at(c, p, tap, n, {met, F(HUGE_VAL)}));
       const F share = select(parted, hit, F(0));
@@ -186,11 +186,12 @@ struct MirroredLight : MirroredPicture {
   }
 
   /// What the picture shows of the rays of `lanes`, which pass behind a surface of the planes, or
-  /// end where the planes have no data, as at an object's foot. `none`: 1 where the planes show
-  /// nothing for a ray that meets nothing: then it is what the picture shows in its direction.
+  /// end where the planes have no data, as at an object's foot. `lost`: 1 for rays that meet
+  /// nothing, and for which the planes show no place without a surface. Without an environment it
+  /// is what the picture shows in their direction: sky, beyond its edge, too, or a far surface.
   template <class F, class Tap, class Mask>
   static Mirrored<F> shown_instead(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
-                                   const Mask& lanes, F none, Mirrored<F> seen) {
+                                   const Mask& lanes, F lost, Mirrored<F> seen) {
     if (!c.planes.covers(kColorPlanes)) return seen;
     const auto wanted = tap.wet() && lanes;
     if_any(wanted, [&] {
@@ -198,12 +199,16 @@ struct MirroredLight : MirroredPicture {
       const auto met = wanted && there.hit > F(0.5);
       seen.light = select(met, there.light, seen.light);
       seen.sources = select(met, from_picture<F>(), seen.sources);
-      const auto lost = wanted && !met && none > F(0.5);
-      if_any(lost, [&] {
+      if (c.environment) return;
+      const auto open = wanted && !met && lost > F(0.5);
+      if_any(open, [&] {
         const ScreenRay<F> ray(c, p, mirrored_ray(c, p, n));
-        const Vec2<F> at = next_to(c, p, ray.shift_at(F(HUGE_VAL)));
+        const Vec2<F> end = ray.shift_at(F(HUGE_VAL)), at = next_to(c, p, end);
         const F depth = tap.nearest(PlaneId::kDepth, at);
-        const auto shown = lost && (nothing(depth) || height_at(c, p, at, depth) > F(0));
+        const auto in_picture = abs(end.x - at.x) + abs(end.y - at.y) <= F(0);
+        const auto far_off = depth > F(kAhead) * p.surface_depth || ray.depth_step < F(0);
+        const auto surface = in_picture && far_off && height_at(c, p, at, depth) > F(0);
+        const auto shown = open && (nothing(depth) || surface);
         const Rgb<F> far{tap.nearest(PlaneId::kColorR, at), tap.nearest(PlaneId::kColorG, at),
                          tap.nearest(PlaneId::kColorB, at)};
         seen.light = select(shown, far, seen.light);
@@ -241,22 +246,22 @@ struct MirroredLight : MirroredPicture {
     return seen < F(1e30) && x * x + y * y > F(kWrong * kWrong);
   }
 
+  template <class F>
+  struct Landing {
+    Vec2<F> place;
+    F lost;  ///< 1 where it is the pixel itself, for want of another place
+  };
   /// Where a ray ends that meets nothing: infinitely far, should the planes show something that far
   /// in its place. Else it is the nearest such place before it on the ray's line, or the pixel
   /// itself. `far` is the ray's place at infinity, `seen` the depth there; `strays`: the
   /// rays that meet nothing, and of which passes_behind() is true. What stands nearer to
   /// the viewer than the pixel's water is certainly not mirrored there: then the places beyond it
   /// count, too, which have a higher sky.
-  template <class F>
-  struct Landing {
-    Vec2<F> place;
-    F none;  ///< 1 where it is the pixel itself, for want of another place
-  };
   template <class F, class Tap, class Mask>
   static Landing<F> far_landing(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                 const ScreenRay<F>& ray, Vec2<F> far, F seen, const Mask& strays) {
     Vec2<F> landing = far;
-    F none(0);
+    F lost(0);
     if_any(strays, [&] {
       F open = select(strays, F(1), F(0));
       const auto take = [&](const auto& wanted, Vec2<F> at) {
@@ -275,9 +280,9 @@ struct MirroredLight : MirroredPicture {
         return open > F(0.5);
       });
       landing = select(open > F(0.5), Vec2<F>{F(0), F(0)}, landing);
-      none = open;
+      lost = open;
     });
-    return {landing, none};
+    return {landing, lost};
   }
   static constexpr int kPlaces = 6;  ///< on each side
   /// Pixels. The depth that complete/mirror_depth.h makes is two pixels wider than its objects.

@@ -198,9 +198,9 @@ struct MirroredPicture : FresnelReflection {
   }
 
   /// The light from beyond the picture, for `lanes`: the surfaces that the picture shows at its
-  /// edge go on there, if the ray leaves the picture before them, in the share to which surfaces,
-  /// not sky, are seen around the place of the edge next to the ray: as far to both sides as the
-  /// ray is beyond the edge.
+  /// edge go on there, if the ray leaves the picture before them: less, the more sky is seen among
+  /// them around the place of the edge next to the ray, as far to both sides as the ray is beyond
+  /// the edge, and the higher the ray meets them.
   template <class F, class Tap, class Mask>
   static Mirrored<F> goes_on(const Pass& c, const Pixel<F>& p, const Tap& tap,
                              const ScreenRay<F>& ray, const Mask& lanes, Mirrored<F> beyond) {

@@ -222,6 +222,17 @@ settings.motion = 'NEXT'
         self.assertGreater(strip.sum(), 50)
         np.testing.assert_allclose(below[strip], dry[strip], atol=.1)
 
+    def test_a_leaf_on_the_objects_waves_is_not_in_the_layer_below(self):
+        script = "bpy.ops.mesh.primitive_circle_add(radius=3, fill_type='NGON', location=(-4, -1, .5))\n"
+        folder = self.wet("sea", SMALL + "settings.water, settings.waves = bpy.data.objects['ocean'], 'OBJECT'\n"
+                          "settings.reflection = settings.shadow = settings.aovs = False\n", script=script)
+        self.assertLess(self.facts(folder)["water"]["height"], .5)  # the leaf's
+        dry, below, water = (Plate(folder / f"plates/{name}.0001.exr").depth() for name in ("dry", "below", "surface"))
+        dry, below, water = (depth[:, :60] for depth in (dry, below, water))  # left of the rock
+        over = (dry < water - .02) & (dry > water - .12)  # by less than a strip
+        self.assertGreater(over.sum(), 20)
+        self.assertLess((below[over] < water[over]).mean(), .1)
+
     def test_a_linked_collection_is_cut_and_mirrored_like_the_rest(self):
         library = self.scene("pool")
         folder = self.folder / "linked"

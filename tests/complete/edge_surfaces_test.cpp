@@ -1,9 +1,12 @@
 #include "complete/edge_surfaces.h"
 
 #include <cmath>
+#include <vector>
 
+#include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "op/pass.h"
 #include "support.h"
 
 // What stands at the edge of the picture above the water.
@@ -13,86 +16,141 @@ namespace {
 
 using test::kInf;
 
-constexpr Rect kWindow{-4, 3, 36, 23};
-constexpr int kWide = 40, kHigh = 20;  // its size: a side has kWide columns
-
-/// A view over water in which texels from 6 to 15 of the upper edge show something at a depth of
-/// 10, and the right edge something at .8, and bottom under that.
+/// A level view from 2 above the water: noise of things of all depths, sky and bottom.
 struct Shown {
-  test::Buffers buffers{kWindow};
-  Scene scene;
+  Rect window;
+  test::Buffers buffers{window};
+  Scene scene = test::simple_scene(window.size());
   EdgeSurfacesMaker maker;
   const EdgeSurfaces* made = nullptr;
 
-  explicit Shown(int threads = 1, float light = 5) {
-    scene = test::simple_scene(kWindow.size());
+  explicit Shown(Rect size, int threads = 1) : window(size) {
+    scene.camera->view =
+        glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 2, -1), glm::dvec3(0, 1, 0));
     buffers.set(PlaneId::kDepth, [](int x, int y) {
-      if (x == kWindow.x1 - 1) return y < 13 ? 0.8f : 30.0f;
-      return y == kWindow.y0 && x >= 2 && x < 12 ? 10.0f : kInf;
+      const float kind = test::noise(x / 3, y / 3, 1);
+      return kind < 0.3f ? kInf : kind < 0.8f ? 1 + 3 * kind : 40.0f;
     });
     for (int c = 0; c < 3; ++c) {
-      buffers.set(plane_after(PlaneId::kColorR, c), [=](int x, int) {
-        return x == kWindow.x1 - 1 ? 2.0f : x < 12 && x >= 2 ? light * float(c + 1) : 100.0f;
-      });
+      buffers.set(plane_after(PlaneId::kColorR, c),
+                  [c](int x, int y) { return test::noise(x, y, 2 + c); });
     }
+    make(threads);
+  }
+  void make(int threads = 1) {
     const Pass pass(scene, buffers.frame, 1.333, {});
     made = maker.make(buffers.frame, pass, *make_executor(threads));
   }
-  /// In the first row, or in the last; `column` from the upper left corner to the right.
-  float share(int column, int row) const { return made->shape.channels[0].at(column, row); }
-  float depth(int column, int row) const { return made->shape.channels[1].at(column, row); }
-  float color(int c, int column, int row) const {
-    return made->colors.channels[static_cast<std::size_t>(c)].at(column, row);
+  const View<const float>& plane(int k) const {
+    const Texture& texture = k < 3 ? made->colors : made->shape;
+    return texture.channels[static_cast<std::size_t>(k % 3)];
+  }
+  int columns() const { return plane(0).window.width() / 4; }
+
+  /// Red, green, blue, 1, depth and its square of what stands there, and 1 of that or sky.
+  using Texel = std::array<double, 7>;
+  Texel texel(int x, int y) const {
+    const auto at = [&](PlaneId id) -> double { return buffers.frame.plane(id).at(x, y); };
+    const double rise = rays_of(*scene.camera, {double(window.width()), double(window.height())})
+                            .ray_at(x - window.x0 + 0.5, y - window.y0 + 0.5)
+                            .y;
+    const double depth = at(PlaneId::kDepth);
+    if (depth == kInf) return {0, 0, 0, 0, 0, 0, rise > 0 ? 1.0 : 0.0};
+    if (!(2 + depth * rise > 0)) return {};
+    return {at(PlaneId::kColorR),
+            at(PlaneId::kColorG),
+            at(PlaneId::kColorB),
+            1,
+            depth,
+            depth * depth,
+            1};
+  }
+  /// The outermost texels from the upper left corner to the right, down, to the left and up.
+  std::vector<Texel> around() const {
+    std::vector<Texel> all;
+    const Rect& w = window;
+    for (int x = w.x0; x < w.x1; ++x) all.push_back(texel(x, w.y0));
+    for (int y = w.y0; y < w.y1; ++y) all.push_back(texel(w.x1 - 1, y));
+    for (int x = w.x1 - 1; x >= w.x0; --x) all.push_back(texel(x, w.y1 - 1));
+    for (int y = w.y1 - 1; y >= w.y0; --y) all.push_back(texel(w.x0, y));
+    return all;
   }
 };
 
-TEST(EdgeSurfaces, TheFirstRowIsTheEdge) {
-  const Shown view;
-  EXPECT_EQ(view.made->shape.channels[0].window.width(), 4 * kWide);
-  EXPECT_EQ(view.made->shape.channels[0].window.height(), EdgeSurfaces::kRows);
-  for (int i = 0; i < kWide - 1; ++i) {
-    const bool stands = i >= 6 && i < 16;
-    EXPECT_EQ(view.share(i, 0), stands ? 1 : 0) << i;
-    EXPECT_EQ(view.depth(i, 0), stands ? 10 : 0) << i;
-    EXPECT_EQ(view.color(1, i, 0), stands ? 10 : 0) << i;
+/// The mean of texels of a ring from one place to another, which may be beyond its ends.
+Shown::Texel mean_of(const std::vector<Shown::Texel>& ring, double begin, double end) {
+  const int count = static_cast<int>(ring.size());
+  Shown::Texel mean{};
+  for (int i = static_cast<int>(std::floor(begin)); i < end; ++i) {
+    const double part = std::min(end, i + 1.0) - std::max(begin, double(i));
+    const Shown::Texel& texel = ring[static_cast<std::size_t>((i % count + count) % count)];
+    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += part * texel[k] / (end - begin);
   }
-  // The right side is shorter: two columns a texel. What lies below the water does not count.
-  EXPECT_EQ(view.share(kWide, 0), 1);
-  EXPECT_FLOAT_EQ(view.depth(kWide + 1, 0), 0.8f);
-  EXPECT_EQ(view.color(0, kWide, 0), 2);
-  EXPECT_EQ(view.share(2 * kWide - 1, 0), 0);
+  return mean;
 }
 
-TEST(EdgeSurfaces, ARowIsAMeanToBothSides) {
-  const Shown view;
-  constexpr int kRow = 6;  // reaches 20 (6 / 15)^2 = 3.2 pixels: three texels
-  EXPECT_EQ(view.made->reach, 20);
-  EXPECT_NEAR(view.share(6, kRow), 4 / 7.0, 1e-6);
-  EXPECT_NEAR(view.share(10, kRow), 1, 1e-6);
-  EXPECT_NEAR(view.share(3, kRow), 1 / 7.0, 1e-6);
-  EXPECT_NEAR(view.depth(3, kRow), 10 / 7.0, 1e-5);
-  EXPECT_NEAR(view.color(2, 3, kRow), 15 / 7.0, 1e-5);
-  EXPECT_EQ(view.share(2, kRow), 0);
-  // Around the corner, and from the last column on to the first.
-  EXPECT_NEAR(view.share(kWide - 2, kRow), 3 / 7.0, 1e-6);
-  double sum = 0;
-  for (int i = 0; i < 4 * kWide; ++i) sum += view.share(i, kRow) - view.share(i, 0);
-  EXPECT_LT(std::abs(sum), 6);  // a side's step is another than the next side's
+TEST(EdgeSurfaces, AreMeansOfTheEdgeAsFarAsTheRowSays) {
+  for (const Rect window : {Rect{-4, 3, 36, 23}, Rect{0, 0, 10, 30}, Rect{2, 1, 3, 2},
+                            Rect{0, 0, 1, 7}, Rect{0, 0, 40, 1}}) {
+    const Shown shown(window);
+    const auto ring = shown.around();
+    const double longer = std::max(window.width(), window.height());
+    ASSERT_EQ(shown.columns(), longer);
+    ASSERT_EQ(shown.plane(3).window.height(), EdgeSurfaces::kRows);
+    EXPECT_EQ(shown.made->reach, longer / 2);
+    double begin = 0;
+    for (int i = 0; i < 4 * shown.columns(); ++i) {
+      const double step =
+          (i / shown.columns() % 2 == 0 ? window.width() : window.height()) / longer;
+      for (int row = 0; row < EdgeSurfaces::kRows; ++row) {
+        const double part = row / (EdgeSurfaces::kRows - 1.0);
+        const double half = std::max(longer / 2 * part * part, step / 2);
+        const Shown::Texel mean = mean_of(ring, begin + step / 2 - half, begin + step / 2 + half);
+        const double depth = mean[4] > 0 ? mean[3] * mean[5] / mean[4] : 0;
+        for (int k = 0; k < 3; ++k) {
+          ASSERT_NEAR(shown.plane(k).at(i, row), mean[static_cast<std::size_t>(k)], 1e-5)
+              << i << ", " << row << " of " << window.width() << "x" << window.height();
+        }
+        ASSERT_NEAR(shown.plane(3).at(i, row), mean[3], 1e-5) << i << ", " << row;
+        ASSERT_NEAR(shown.plane(4).at(i, row), depth, 1e-4 + 1e-5 * depth) << i << ", " << row;
+        ASSERT_NEAR(shown.plane(5).at(i, row), mean[6], 1e-5) << i << ", " << row;
+      }
+      begin += step;
+    }
+  }
 }
 
-TEST(EdgeSurfaces, AreFiniteForInfiniteLight) {
-  const Shown view(1, kInf);
-  for (int row = 0; row < EdgeSurfaces::kRows; ++row) {
-    for (int i = 0; i < 4 * kWide; ++i) ASSERT_TRUE(std::isfinite(view.color(0, i, row)));
+// A picture of more texels than columns.
+TEST(EdgeSurfaces, OfALargePictureAreMeansOfItsTexels) {
+  Shown shown({0, 0, 2100, 3});
+  EXPECT_LT(shown.columns(), 1024);
+  shown.buffers.fill(PlaneId::kDepth, 1).set(PlaneId::kColorR, [](int x, int) {
+    return x % 2 == 0 ? 1.0f : 2.0f;
+  });
+  shown.make();
+  for (int i = 0; i < shown.columns(); ++i) {
+    EXPECT_NEAR(shown.plane(0).at(i, 0), 1.5, 0.2) << i;
+    EXPECT_NEAR(shown.plane(0).at(i, 9), 1.5, 0.01) << i;
+    EXPECT_NEAR(shown.plane(3).at(i, 9), 1, 1e-5) << i;
   }
+}
+
+// Light of the largest number in one texel leaves the rest of the edge as it is.
+TEST(EdgeSurfaces, InfiniteLightStaysWhereItIs) {
+  Shown shown({0, 0, 40, 20});
+  shown.buffers.fill(PlaneId::kDepth, 1).set(PlaneId::kColorR, [](int x, int y) {
+    return x == 3 && y == 0 ? kInf : 2.0f;
+  });
+  shown.make();
+  EXPECT_NEAR(shown.plane(0).at(3, 0), 65504, 1);
+  for (int i = 5; i < 160; ++i) EXPECT_NEAR(shown.plane(0).at(i, 0), 2, 1e-5) << i;
 }
 
 TEST(EdgeSurfaces, ThreadsDoNotMatter) {
-  const Shown one(1), four(4);
-  for (int row = 0; row < EdgeSurfaces::kRows; ++row) {
-    for (int i = 0; i < 4 * kWide; ++i) {
-      ASSERT_EQ(one.share(i, row), four.share(i, row));
-      ASSERT_EQ(one.color(2, i, row), four.color(2, i, row));
+  const Shown one({-4, 3, 36, 23}), four({-4, 3, 36, 23}, 4);
+  for (int k = 0; k < 6; ++k) {
+    for (int row = 0; row < EdgeSurfaces::kRows; ++row) {
+      for (int i = 0; i < 160; ++i) ASSERT_EQ(one.plane(k).at(i, row), four.plane(k).at(i, row));
     }
   }
 }

@@ -261,8 +261,8 @@ TEST(AutoMirror, MeetsARidgeOnlyWhereItsRaysPassBelowIt) {
   }
 }
 
-// A jetty right before the viewer hides the whole mirrored scene: its texels are not what is seen
-// past it.
+// A jetty right before the viewer hides the whole mirrored scene: what is seen past it is in the
+// picture, but not the jetty there, which is nearer than the water.
 TEST(AutoMirror, ShowsThePictureInTheDirectionOfWhatTheReflectionHides) {
   Mirror shore;
   for (const PlaneId id : {PlaneId::kReflectionR, PlaneId::kReflectionG, PlaneId::kReflectionB}) {
@@ -271,6 +271,14 @@ TEST(AutoMirror, ShowsThePictureInTheDirectionOfWhatTheReflectionHides) {
   shore.buffers.fill(PlaneId::kReflectionDepth, 1).fill(PlaneId::kReflectionValid, 1);
   shore.buffers.normal({0, std::cos(0.1), std::sin(0.1)});  // a level mirror shows its own texel
   const test::Picture picture = shore.pictures();
+  const Rect jetty{20, 0, 30, 20};
+  const auto on_jetty = [=](int x, int y) { return jetty.contains({x, y, x + 1, y + 1}); };
+  shore.buffers.set(PlaneId::kDepth,
+                    [&](int x, int y) { return on_jetty(x, y) ? 1 : shore.dry_depth(x, y); });
+  shore.buffers.set(PlaneId::kColorR, [&](int x, int y) {
+    return on_jetty(x, y) ? kInside : shore.dry_depth(x, y) == kInf ? kSky : kWall;
+  });
+  const test::Picture past = shore.pictures();
   int skies = 0, walls = 0;
   // Beside the edge a ray's place is too near to the pixel to tell.
   for (int y = 0; y < Shore::kSize.height - 4; ++y) {
@@ -281,6 +289,7 @@ TEST(AutoMirror, ShowsThePictureInTheDirectionOfWhatTheReflectionHides) {
       EXPECT_LE(color, kSky) << x << ", " << y;
       skies += color == kSky;
       walls += color == kWall;
+      EXPECT_NE(past.color(x, y).r, kInside) << x << ", " << y;
     }
   }
   EXPECT_GT(skies, 50);

@@ -29,18 +29,18 @@ namespace limpid {
 ///
 /// `auto`: the reflection planes if the frame has them, with the environment or `color` where they
 /// have no data; else the dry picture along the mirrored ray, marched over its depth
-/// (op/mirror_search.h), and beyond that the environment or the sky planes, which are computed
-/// (complete/sky.h); beyond their edge the sky goes on to change with elevation. If the picture
-/// shows no sky, these rays end in `color`; if `color` is 0, in the radiance of the scene's sky, or
-/// without such a sky in a gray of twice the picture's brightness. Its `ray` marches over the depth
-/// of the reflection, which is computed if the plate has none (complete/mirror_depth.h). A ray
-/// without a hit in that depth ends infinitely far. If the planes show a near object at that
-/// position, 4 pixels or more from the point at which the ray passes the object, the ray takes what
-/// it meets in the dry picture; if that is nothing, the lookup goes back to the last empty
-/// position. With an environment and a rendered depth, a ray that leaves the planes ends in the
-/// environment, unless they show at their edge a surface behind the ray, which may go on. From
-/// below, rays go down to the bottom; a ray without a hit ends at the level of the bottom that is
-/// visible next to its end.
+/// (op/mirror_search.h). Beyond that surfaces at its edge go on (op/edge_surfaces.h), before the
+/// environment or the sky planes, which are computed (complete/sky.h) and go on to change with
+/// elevation. If the picture shows no sky, these rays end in `color`; if that is 0, in the radiance
+/// of the scene's sky, or else in a gray of twice the picture's brightness. Its `ray` marches over
+/// the depth of the reflection, which is computed if the plate has none (complete/mirror_depth.h).
+/// A ray without a hit in that depth ends infinitely far. If the planes show a near object there, 4
+/// pixels or more from where the ray passes the object, the ray takes what it meets in the dry
+/// picture, else the last empty position; without one, and without an environment, the picture in
+/// its direction. Past planes of a rendered depth a ray ends in the environment, if there is one,
+/// unless a surface at their edge, behind the ray, may go on. From below, rays go down to the
+/// bottom; a ray without a hit ends at the level of the bottom that the picture shows next to the
+/// end of the ray.
 ///
 /// `facets` `spread` averages reflectance times mirrored light over the slopes that the pixel does
 /// not resolve (slope_variance), by three facets along the view (optics/facets.h); on a raised

@@ -36,7 +36,7 @@ def _level(mesh, world):
 
 
 def crosses(thing, world, low, high):
-    """Whether the box around an object spans a height between `low` and `high`: the clip at the water then exposes its
-    inside."""
+    """Whether the box around an object begins under `high` and ends over `low`: water between these heights may cut it, and
+    the clip at the water then exposes its inside."""
     heights = [(world @ Vector(corner)).z for corner in thing.bound_box]
     return min(heights) < high and max(heights) > low

@@ -93,7 +93,8 @@ def _with_depth_of_waves(studio, changes, overscan):
 def below(studio, path, overscan):
     """The dry scene without the objects above the water, or above the object's waves, lit and shaded as before. A strip of
     two pixels of objects that the water cuts remains, so that lookups next to the waterline find the object in the water,
-    and not the scene behind the object. Objects that lie on the water or above it as a whole, like a leaf, are left out."""
+    and not the scene behind the object. Objects that lie on the water or above it as a whole, like a leaf, are left out; on
+    the object's waves those that lie above its mean height."""
     with Changes() as changes:
         changes.set(studio.scene.cycles, "samples", studio.samples)
         changes.set(studio.scene.cycles, "transparent_max_bounces", CLEAR)
@@ -102,7 +103,7 @@ def below(studio, path, overscan):
         has_waves = studio.job.waves == "OBJECT"
         if has_waves:
             _with_depth_of_waves(studio, changes, overscan)
-        studio.mark_crossing(studio.trough, studio.crest)
+        studio.mark_crossing(studio.trough, studio.height)  # what begins over the mean height floats
         set_numbers(studio.cut, side=1, height=studio.crest, spare=strip * (not is_flat), spare_flat=strip * is_flat, hold=0,
                     waves=has_waves)
         seen_through(studio.cut, studio.materials, changes)

@@ -72,9 +72,9 @@ def depth_material():
 
 def cut_group():
     """Surfaces on one `side` of the `height` (1 above, -1 below), which for objects that the water cuts rises by `spare` per
-    unit of distance and by `spare_flat`, are transparent to the camera. The exposed inside of a clipped object is
-    transparent, too, or a holdout with `hold`. With `waves`, surfaces in front of the depth of the image `depth`, by more
-    than the rise, are transparent as well."""
+    unit of distance and by `spare_flat`, and for others falls by the part LEAF of that, are transparent to the camera. The
+    exposed inside of a clipped object is transparent, too, or a holdout with `hold`. With `waves`, surfaces in front of the
+    depth of the image `depth`, by more than the rise, are transparent as well."""
     group = _Group("limpid cut")
     here, path = group.node("ShaderNodeNewGeometry"), group.node("ShaderNodeLightPath")
     side, height, hold = (group.number(name) for name in ("side", "height", "hold"))

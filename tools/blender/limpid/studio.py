@@ -193,12 +193,14 @@ class Studio:
         bpy.data.meshes.remove(before)
 
     def mark_crossing(self, low, high):
-        """Marks the objects that water between the heights cuts."""
+        """Marks the objects that water between the heights may cut."""
         crossing = {instance.object.original.name for instance in bpy.context.evaluated_depsgraph_get().object_instances
                     if instance.object.type in SHOWN and crosses(instance.object, instance.matrix_world, low, high)}
         for thing in bpy.data.objects:
-            thing[CROSSING] = float(thing.name in crossing)
-            thing.update_tag()
+            value = float(thing.name in crossing)
+            if thing.get(CROSSING) != value:
+                thing[CROSSING] = value
+                thing.update_tag()
 
     def towards_sun(self):
         return (self.sun.matrix_world.to_3x3() @ Vector((0, 0, 1))).normalized()
