@@ -135,7 +135,7 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
     phrases.emplace_back("waves that the plate's surface does not resolve (wave_normals.filter)");
   }
   if (mirrors_picture(plan, plan.planes, false)) {
-    phrases.emplace_back("what is mirrored from beyond the picture (fresnel_reflection.source)");
+    phrases.emplace_back("mirrored surfaces beyond the picture (fresnel_reflection.source)");
   }
   if (!plan.made.has(StatePart::kPosition)) return phrases;
   if (plan.look.of<Refraction>().continues_bottom()) {

@@ -30,7 +30,7 @@ namespace limpid {
 /// Makes missing data from the planes that a frame has: the planes of Plan::completed; the slope
 /// map for pixels wider than a texel of the wave map; depths on the rays of a part of each pixel;
 /// the parts of pixels that objects in front of the water cover; the layer below the water,
-/// extended as far as color and depth; what stands at the edge of the picture, for mirrored rays
+/// extended as far as color and depth; the surfaces at the edge of the picture, for mirrored rays
 /// that leave it; the continuation of the bottom for rays that leave the picture; the bottom behind
 /// objects, for rays that end there; multiple scattering; the table of caustics, and caustics in
 /// the reflection. Each only if the plan needs it. Runs once per frame, before its pixels;

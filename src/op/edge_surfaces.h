@@ -2,7 +2,7 @@
 #include "limpid/core/frame.h"
 
 /// @file
-/// What stands at the edge of the picture above the water, for mirrored rays that leave the
+/// The surfaces above the water at the edge of the picture, for mirrored rays that leave the
 /// picture.
 
 namespace limpid {

@@ -61,7 +61,7 @@ struct Pass : WaterView {
   RangeBound mirrored = {};           ///< likewise, of the depths for mirrored marches
   RangeBound lit = {};                ///< likewise, of the shadow on the surface
   PlateWaves plate_waves = {};        ///< of the frame's own surface, where a runner has made it
-  const EdgeSurfaces* edge_surfaces;  ///< what stands at the picture's edge, or null
+  const EdgeSurfaces* edge_surfaces;  ///< the surfaces at its edge, or null
   const Continuation* continuation;   ///< the bottom beyond the picture, or null
   const BottomLayer* bottom_layer;    ///< the bottom behind objects in front of it, or null
   const CausticsTable* caustics;      ///< null if no completer has made it

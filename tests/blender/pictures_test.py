@@ -212,23 +212,24 @@ settings.motion = 'NEXT'
             self.assertLess((below < water - .3).sum(), .1 * over.sum())
             np.testing.assert_allclose(below[dry > water + .3], dry[dry > water + .3], atol=.1)
 
-    def test_a_shoal_that_only_troughs_of_the_waves_cut_keeps_its_strip(self):
-        script = "bpy.ops.mesh.primitive_cylinder_add(radius=4, depth=1, location=(0, -2, .3 - .5))\n"
+    def depths_on_waves(self, script):
+        """Depths of the dry picture, of the layer below, and of the object's waves, whose mean height is .41."""
         folder = self.wet("sea", SMALL + "settings.water, settings.waves = bpy.data.objects['ocean'], 'OBJECT'\n"
                           "settings.reflection = settings.shadow = settings.aovs = False\n", script=script)
-        self.assertGreater(self.facts(folder)["water"]["height"], .3)  # the shoal's
-        dry, below, water = (Plate(folder / f"plates/{name}.0001.exr").depth() for name in ("dry", "below", "surface"))
+        self.assertAlmostEqual(self.facts(folder)["water"]["height"], .41, delta=.02)
+        return (Plate(folder / f"plates/{name}.0001.exr").depth() for name in ("dry", "below", "surface"))
+
+    def test_a_shoal_that_only_troughs_of_the_waves_cut_keeps_its_strip(self):
+        dry, below, water = self.depths_on_waves(
+            "bpy.ops.mesh.primitive_cylinder_add(radius=4, depth=1, location=(0, -2, .3 - .5))\n")
         strip = (dry > water - .1) & (dry < water)  # a pixel is .075 wide
         self.assertGreater(strip.sum(), 50)
         np.testing.assert_allclose(below[strip], dry[strip], atol=.1)
 
     def test_a_leaf_on_the_objects_waves_is_not_in_the_layer_below(self):
-        script = "bpy.ops.mesh.primitive_circle_add(radius=3, fill_type='NGON', location=(-4, -1, .5))\n"
-        folder = self.wet("sea", SMALL + "settings.water, settings.waves = bpy.data.objects['ocean'], 'OBJECT'\n"
-                          "settings.reflection = settings.shadow = settings.aovs = False\n", script=script)
-        self.assertLess(self.facts(folder)["water"]["height"], .5)  # the leaf's
-        dry, below, water = (Plate(folder / f"plates/{name}.0001.exr").depth() for name in ("dry", "below", "surface"))
-        dry, below, water = (depth[:, :60] for depth in (dry, below, water))  # left of the rock
+        depths = self.depths_on_waves(
+            "bpy.ops.mesh.primitive_circle_add(radius=3, fill_type='NGON', location=(-4, -1, .5))\n")
+        dry, below, water = (depth[:, :60] for depth in depths)  # left of the rock
         over = (dry < water - .02) & (dry > water - .12)  # by less than a strip
         self.assertGreater(over.sum(), 20)
         self.assertLess((below[over] < water[over]).mean(), .1)

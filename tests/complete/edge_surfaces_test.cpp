@@ -9,7 +9,7 @@
 #include "op/pass.h"
 #include "support.h"
 
-// What stands at the edge of the picture above the water.
+// The surfaces above the water at the edge of the picture.
 
 namespace limpid {
 namespace {
@@ -47,7 +47,7 @@ struct Shown {
   }
   int columns() const { return plane(0).window.width() / 4; }
 
-  /// Red, green, blue, 1, depth and its square of what stands there, and 1 of that or sky.
+  /// Red, green, blue, 1, depth and its square of a surface there, and 1 of a surface or sky.
   using Texel = std::array<double, 7>;
   Texel texel(int x, int y) const {
     const auto at = [&](PlaneId id) -> double { return buffers.frame.plane(id).at(x, y); };

@@ -177,7 +177,7 @@ struct Frame {
   std::optional<Rgb<double>> sky_radiance;
   /// How the planes of the sky go on beyond their edge; none, or made by complete/.
   SkyChange sky_change;
-  /// What stands at the edge of the picture above the water; null, or made by complete/.
+  /// The surfaces above the water at the edge of the picture; null, or made by complete/.
   const EdgeSurfaces* edge_surfaces = nullptr;
   /// The bottom beyond the picture; null, or made by complete/.
   const Continuation* continuation = nullptr;

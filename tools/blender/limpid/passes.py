@@ -103,7 +103,7 @@ def below(studio, path, overscan):
         has_waves = studio.job.waves == "OBJECT"
         if has_waves:
             _with_depth_of_waves(studio, changes, overscan)
-        studio.mark_crossing(studio.trough, studio.height)  # what begins over the mean height floats
+        studio.mark_crossing(studio.trough, studio.height)  # objects that begin over the mean height float
         set_numbers(studio.cut, side=1, height=studio.crest, spare=strip * (not is_flat), spare_flat=strip * is_flat, hold=0,
                     waves=has_waves)
         seen_through(studio.cut, studio.materials, changes)
