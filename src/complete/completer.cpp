@@ -63,6 +63,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   Pass now = pass;
   now.planes = whole.present();
   now.wave_variance = whole.wave_variance;
+  if (whole.sky_radiance) now.has_sky = true, now.sky = *whole.sky_radiance;
   std::array<double, 3> sun_over_rest{};
   const bool refracted = caustics.sunlight == Caustics::Sunlight::kRefracted;
   if (plan.keeps<Caustics>() && (refracted || now.planes.covers(kSunColorPlanes))) {
@@ -137,6 +138,10 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
   if (mirrors_picture(plan, plan.planes, false)) {
     phrases.emplace_back("mirrored surfaces beyond the picture (fresnel_reflection.source)");
   }
+  if (plan.keeps<DepthFog>() && !plan.reads_environment &&
+      Kernel<DepthFog>::wants_scattered_light(plan.look.of<DepthFog>())) {
+    phrases.emplace_back("the light of the visible sky in the water, without [sky] radiance");
+  }
   if (!plan.made.has(StatePart::kPosition)) return phrases;
   if (plan.look.of<Refraction>().continues_bottom()) {
     phrases.emplace_back("the bottom beyond the picture (refraction.off_frame)");
@@ -206,8 +211,11 @@ void Completer::complete_water(const Plan& plan, PlaneSet made, bool pixels, con
   if (!Kernel<DepthFog>::wants_scattered_light(water) || !plan.made.has(StatePart::kInScatter))
     return;
   const ScatteringWater scattering = Kernel<DepthFog>::scattering_water(water, pass);
-  if (plan.reads_environment && frame.environment)
+  if (plan.reads_environment && frame.environment) {
     frame.sky_radiance = sky_radiance(frame.environment);
+  } else if (pixels && !pass.has_sky) {
+    frame.sky_radiance = shown_sky_radiance(frame, pass);
+  }
   const Rgb<double> sky = frame.sky_radiance.value_or(pass.has_sky ? pass.sky : water.ambient);
   const WaterFloor floor =
       scattering.inside && pixels ? water_floor(frame, pass, sky) : WaterFloor{};

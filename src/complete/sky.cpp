@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -98,6 +99,9 @@ class Line {
   void add(double x, double y) {
     count_ += 1, x_ += x, y_ += y, xx_ += x * x, yy_ += y * y, xy_ += x * y;
   }
+  double count() const { return count_; }
+  double mean_x() const { return x_ / count_; }
+  double mean_y() const { return y_ / count_; }
   struct Fit {
     double slope, explained;  ///< share of the variance of y
   };
@@ -115,50 +119,108 @@ class Line {
   double count_ = 0, x_ = 0, y_ = 0, xx_ = 0, yy_ = 0, xy_ = 0;
 };
 
-}  // namespace
-
-SkyChange sky_change(const Frame& frame, const Pass& pass) {
-  constexpr int kMost = 256;
-  const Picture picture(frame);
-  const Rect& window = picture.window;
-  const int step_x = std::max(1, window.width() / kMost);
-  const int step_y = std::max(1, window.height() / kMost);
-  std::array<Line, 3> of_elevation, of_both;
-  for (int y = window.y0; y < window.y1; y += step_y) {
-    for (int x = window.x0; x < window.x1; x += step_x) {
-      if (!picture.is_clear(x, y)) continue;
-      const glm::dvec3 view =
-          glm::normalize(pass.rays.ray_at(x - pass.corner.x + 0.5, y - pass.corner.y + 0.5));
-      const double sine = glm::dot(pass.up, view);
-      std::array<double, 3> logs;
-      bool shines = sine > 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double color = picture.color[i].at(x, y);
-        shines = shines && color > 0 && color < HUGE_VAL;
-        logs[i] = shines ? std::log(color) : 0;
-      }
-      if (!shines) continue;
-      const double elevation = clear_sky_by_elevation(sine);
-      const double sun = clear_sky_by_sun(glm::dot(pass.sun.direction, view));
-      for (std::size_t i = 0; i < 3; ++i) {
-        of_elevation[i].add(elevation, logs[i]);
-        of_both[i].add(elevation + sun, logs[i]);
+/// The visible sky, clear of objects, at some hundred rows and columns.
+class SkySamples {
+ public:
+  SkySamples(const Frame& frame, const Pass& pass) : pass_(pass) {
+    constexpr int kMost = 256;
+    const Picture picture(frame);
+    const Rect& window = picture.window;
+    const int step_x = std::max(1, window.width() / kMost);
+    const int step_y = std::max(1, window.height() / kMost);
+    for (int y = window.y0; y < window.y1; y += step_y) {
+      for (int x = window.x0; x < window.x1; x += step_x) {
+        if (picture.is_clear(x, y)) add(picture, x, y);
       }
     }
   }
-  std::array<double, 3> with_elevation{}, with_sun{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto [alone, by_alone] = of_elevation[i].fit();
-    const auto [both, by_both] = of_both[i].fit();
-    const bool glows = pass.has_sun && both > 0 && by_both > by_alone;
-    const double change = glows ? both * by_both : alone * by_alone;
-    with_elevation[i] = std::clamp(change, -kMostSkyGain, kMostSkyFall);
-    if (glows) with_sun[i] = std::min(with_elevation[i], kMostSkyGlow);
+
+  /// The least squares of sky_change().
+  SkyChange change() const {
+    std::array<double, 3> with_elevation{}, with_sun{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [alone, by_alone] = of_elevation_[i].fit();
+      const auto [both, by_both] = of_both_[i].fit();
+      const bool glows = pass_.has_sun && both > 0 && by_both > by_alone;
+      const double change = glows ? both * by_both : alone * by_alone;
+      with_elevation[i] = std::clamp(change, -kMostSkyGain, kMostSkyFall);
+      if (glows) with_sun[i] = std::min(with_elevation[i], kMostSkyGlow);
+    }
+    const auto [r, g, b] = with_elevation;
+    const double least = std::min(std::max({r, g, b}), 0.0);
+    return {{std::max(r, least), std::max(g, least), std::max(b, least)},
+            {with_sun[0], with_sun[1], with_sun[2]}};
   }
-  const auto [r, g, b] = with_elevation;
-  const double least = std::min(std::max({r, g, b}), 0.0);
-  return {{std::max(r, least), std::max(g, least), std::max(b, least)},
-          {with_sun[0], with_sun[1], with_sun[2]}};
+
+  /// The mean over the hemisphere that shown_sky_radiance() gives.
+  std::optional<Rgb<double>> radiance() const {
+    if (of_elevation_[0].count() == 0) return {};
+    const SkyChange with = change();
+    const double elevations[] = {with.with_elevation.r, with.with_elevation.g,
+                                 with.with_elevation.b};
+    const double suns[] = {with.with_sun.r, with.with_sun.g, with.with_sun.b};
+    std::array<double, 3> mean{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double elevation = of_elevation_[i].mean_x();
+      const double sun = of_both_[i].mean_x() - elevation;
+      const double level = of_elevation_[i].mean_y() - elevations[i] * elevation - suns[i] * sun;
+      mean[i] = mean_over_sky(level, elevations[i], suns[i]);
+    }
+    return Rgb<double>{mean[0], mean[1], mean[2]};
+  }
+
+ private:
+  void add(const Picture& picture, int x, int y) {
+    const glm::dvec3 view =
+        glm::normalize(pass_.rays.ray_at(x - pass_.corner.x + 0.5, y - pass_.corner.y + 0.5));
+    const double sine = glm::dot(pass_.up, view);
+    std::array<double, 3> logs;
+    bool shines = sine > 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double color = picture.color[i].at(x, y);
+      shines = shines && color > 0 && color < HUGE_VAL;
+      logs[i] = shines ? std::log(color) : 0;
+    }
+    if (!shines) return;
+    const double elevation = clear_sky_by_elevation(sine);
+    const double sun = clear_sky_by_sun(glm::dot(pass_.sun.direction, view));
+    for (std::size_t i = 0; i < 3; ++i) {
+      of_elevation_[i].add(elevation, logs[i]);
+      of_both_[i].add(elevation + sun, logs[i]);
+    }
+  }
+
+  /// Rings of equal shares of a level surface's light.
+  double mean_over_sky(double level, double elevation, double sun) const {
+    constexpr int kRings = 16, kAround = 32;
+    const glm::dvec3& to_sun = pass_.sun.direction;
+    double sum = 0;
+    for (int i = 0; i < kRings; ++i) {
+      const double square = (i + 0.5) / kRings;  // of the sine of the elevation
+      const double sine = std::sqrt(square), cosine = std::sqrt(1 - square);
+      for (int k = 0; k < kAround; ++k) {
+        const double turn = 2 * std::numbers::pi * k / kAround;
+        const glm::dvec3 direction =
+            sine * pass_.up + cosine * std::cos(turn) * pass_.t + cosine * std::sin(turn) * pass_.b;
+        sum += std::exp(level + elevation * clear_sky_by_elevation(sine) +
+                        sun * clear_sky_by_sun(glm::dot(to_sun, direction)));
+      }
+    }
+    return sum / (kRings * kAround);
+  }
+
+  const Pass& pass_;
+  std::array<Line, 3> of_elevation_, of_both_;
+};
+
+}  // namespace
+
+SkyChange sky_change(const Frame& frame, const Pass& pass) {
+  return SkySamples(frame, pass).change();
+}
+
+std::optional<Rgb<double>> shown_sky_radiance(const Frame& frame, const Pass& pass) {
+  return SkySamples(frame, pass).radiance();
 }
 
 bool shows_sky(const Frame& frame) {

@@ -172,6 +172,38 @@ TEST(ScatteredLight, ThatComesBackToHiddenBottomKeepsItsTexture) {
   EXPECT_NEAR(sent(8) / sent(7), 1 / 3.0, 0.01);
 }
 
+// A camera two metres over water as deep as that, under an even sky that fills the upper half.
+TEST(ScatteredLight, IsThatOfTheVisibleSkyIfNothingElseTellsIt) {
+  constexpr Size kSize{24, 48};
+  constexpr float kSky = 0.75f;
+  test::Tray tray(kSize);
+  tray.look = striped(true).look;
+  tray.look.of<DepthFog>().scattering = {0.2, 0.2, 0.2};
+  tray.scene = test::simple_scene(kSize);
+  tray.scene.camera->view =
+      glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 2, -1), glm::dvec3(0, 1, 0));
+  const Rays rays = rays_of(*tray.scene.camera, {kSize.width, kSize.height});
+  const auto depth = [&](int, int y) {
+    const double sinks = -rays.ray_at(12, y + 0.5).y;
+    return sinks > 0 ? static_cast<float>(4 / sinks) : HUGE_VALF;
+  };
+  tray.buffers.set(PlaneId::kDepth, depth).fill(PlaneId::kShadow, 1);
+  for (int c = 0; c < 3; ++c) {
+    tray.buffers.set(plane_after(PlaneId::kColorR, c),
+                     [&](int x, int y) { return depth(x, y) < 1e30f ? 0.25f : kSky; });
+    tray.buffers.fill(plane_after(PlaneId::kAlbedoR, c), 0.5f);
+  }
+  const test::Picture shown = tray.wet();
+  tray.scene.sky = SkyLight{.radiance = {kSky, kSky, kSky}};
+  const test::Picture told = tray.wet();
+  tray.scene.sky = SkyLight{.radiance = {2 * kSky, 2 * kSky, 2 * kSky}};
+  const test::Picture other = tray.wet();
+  const auto glow = [](const test::Picture& wet) { return wet.aov(Aov::kInScatter, 12, 40, 1); };
+  EXPECT_GT(glow(told), 0.01);
+  EXPECT_NEAR(glow(shown), glow(told), 1e-5);
+  EXPECT_GT(glow(other), 1.2 * glow(told));
+}
+
 // In shade that nothing known lights, a color is no albedo.
 TEST(ScatteredLight, IsThatOfTheBottomAroundInShadeWithoutASky) {
   test::Tray tray = striped(true);

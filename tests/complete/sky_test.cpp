@@ -1,6 +1,7 @@
 #include "complete/sky.h"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <glm/ext/matrix_transform.hpp>
@@ -223,6 +224,35 @@ TEST(Sky, TellsHowItChangesAroundTheSun) {
   // Without a sun it is a sky that changes to the sides, too.
   evening.scene.sun.reset();
   EXPECT_EQ(evening.change().with_sun.r, 0);
+}
+
+// The mean of the standard clear sky over a level surface, by its own formula and other directions.
+TEST(Sky, LightsLevelWaterAsAllOfIt) {
+  const auto radiance = [](const Evening& e) {
+    return shown_sky_radiance(e.buffers.frame, Pass(e.scene, e.buffers.frame, 1.333, {}));
+  };
+  Evening evening;
+  EXPECT_NEAR(radiance(evening)->g, 1, 1e-6);
+  evening.fall = evening.glow = 0.9;
+  evening.draw([](int, int) { return 0.0; });
+  constexpr int kRows = 200, kColumns = 400;
+  double light = 0, weights = 0;
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      const double rise = (row + 0.5) / kRows * std::numbers::pi / 2;
+      const double turn = (column + 0.5) / kColumns * 2 * std::numbers::pi;
+      const glm::dvec3 direction(std::cos(rise) * std::cos(turn), std::sin(rise),
+                                 std::cos(rise) * std::sin(turn));
+      const double weight = std::sin(rise) * std::cos(rise);
+      light += weight * std::exp(evening.log_at(direction, true));
+      weights += weight;
+    }
+  }
+  EXPECT_NEAR(radiance(evening)->r, light / weights, 0.01 * light / weights);
+  evening.buffers.fill(PlaneId::kColorB, 0);
+  EXPECT_FALSE(radiance(evening));
+  evening.buffers.fill(PlaneId::kDepth, 5);
+  EXPECT_FALSE(radiance(evening));
 }
 
 TEST(Sky, GoesOnToChangeAboveThePicture) {

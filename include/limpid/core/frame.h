@@ -172,8 +172,8 @@ struct Frame {
   Sym2<double> wave_variance{0, 0, 0};
   /// Multiple scattering in the water, for red, green and blue; null, or made by complete/.
   const ScatteredLight* scattered_light = nullptr;
-  /// The mean radiance of the environment above the horizon, weighted by the cosine with the
-  /// water's up; absent if no operator needs it.
+  /// The mean radiance above the horizon of the environment, or of the sky that the frame shows,
+  /// weighted by the cosine with the water's up; absent if no operator needs it.
   std::optional<Rgb<double>> sky_radiance;
   /// How the planes of the sky go on beyond their edge; none, or made by complete/.
   SkyChange sky_change;
