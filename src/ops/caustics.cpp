@@ -55,9 +55,6 @@ Kernel<Caustics>::Light Kernel<Caustics>::light_of(const P& params, const Pass& 
   light.bends = refracted && (light.known || light.estimated) && light.rise > 1e-3;
   light.moves = light.bends && c.planes.has(PlaneId::kShadow);
   light.entries = light.bends && knows_entries(params, c, c.planes);
-  const Rays& rays = c.rays;
-  const glm::dvec3 away = glm::cross(rays.origin_dx + rays.ray_dx, rays.origin_dy + rays.ray_dy);
-  light.facing = glm::dot(away, c.forward) < 0 ? 1 : -1;
   if (light.known && c.caustics) {
     for (std::size_t i = 0; i < 3; ++i) {
       light.around[i] = c.caustics->sun_over_rest[i] / (1 + c.caustics->sun_over_rest[i]);

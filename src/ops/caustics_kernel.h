@@ -9,6 +9,7 @@
 #include "op/operator.h"
 #include "op/screen_ray.h"
 #include "op/seen_planes.h"
+#include "op/seen_slope.h"
 #include "ops/moved_sunlight.h"
 #include "optics/refract.h"
 
@@ -236,7 +237,7 @@ struct Kernel<Caustics> : MovedSunlight {
   template <class F, class Tap>
   static LIMPID_INLINE Tilt<F> tilt_of(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                        const Light& light, Vec2<F> sunwards) {
-    const Slope<F> slope = slope_at(c, p, tap, light);
+    const SeenSlope<F> slope = seen_slope(c, p, tap, p.shift);
     const F level = dot(vec3_of<F>(c.map_x), slope.normal) * sunwards.x +
                     dot(vec3_of<F>(c.map_y), slope.normal) * sunwards.y;
     const F rise = dot(vec3_of<F>(c.up), slope.normal);
@@ -245,69 +246,15 @@ struct Kernel<Caustics> : MovedSunlight {
     const F straight = rise + level * given<F>(1 / light.rise, "caustics.per_rise");
     const F of_level = min(max(refracted, F(0)), F(kMostTilt));
     const F gain = min(of_level / max(straight, F(1e-3)), F(kMostTilt));
-    const auto known = slope.known > F(0);
+    // The ray's end may lie half a texel from the texel's centre.
+    const F off =
+        abs(F(1) - p.hit_depth / slope.depth) / (F(1 - kSameDepth) + F(0.5) * slope.steps);
+    const F share = saturate(F(2) - off);
+    const auto known = share > F(0) && dot(slope.normal, slope.normal) > F(0);
     const auto if_known = [&](F of_slope) {
-      return select(known, F(1) + slope.known * (of_slope - F(1)), F(1));
+      return select(known, F(1) + share * (of_slope - F(1)), F(1));
     };
     return {if_known(of_level), if_known(gain)};
-  }
-
-  template <class F>
-  struct Slope {
-    Vec3<F> normal;  ///< unit, towards the viewer
-    F known;         ///< 0 ... 1; 0 where the dry picture does not show the bottom
-  };
-  /// The slope of the bottom at the texel that the pixel looks up: from depths kApart pixels to all
-  /// sides, where those across an edge count least, and those beyond the picture hardly.
-  template <class F, class Tap>
-  static LIMPID_INLINE Slope<F> slope_at(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                                         const Light& light) {
-    constexpr double kApart = 2, kMostStep = 0.1;
-    const auto depth_at = [&](Vec2<F> shift) {
-      return min(max(tap.nearest(PlaneId::kDepth, shift), F(1e-18)), F(1e18));
-    };
-    const Vec2<F> low{given<F>(c.dry.low.x) - p.uv.x, given<F>(c.dry.low.y) - p.uv.y};
-    const Vec2<F> high{given<F>(c.dry.high.x) - p.uv.x, given<F>(c.dry.high.y) - p.uv.y};
-    const Vec2<F> at = to_texel(
-        c, Vec2<F>{min(max(p.shift.x, low.x), high.x), min(max(p.shift.y, low.y), high.y)});
-    const F depth = depth_at(at);
-    const Vec3<F> ray = ray_gain(c, at) - p.ray_length * p.to_viewer;
-    F steps(0);  // of depth, from one texel to the next, as a share of it
-    const auto tangent = [&](F x, F y, const Vec3<F>& origin_step, const Vec3<F>& ray_step) {
-      F least(kMostStep);
-      const auto beside = [&](F step_x, F step_y, F& edge) {
-        const Vec2<F> side{at.x + step_x, at.y + step_y};
-        const F found = min(depth_at(side), F(2) * depth);
-        // A difference of inverse depths, which are linear across a plane.
-        const F step = depth / found - F(1);
-        const auto shown = min(side.x - low.x, high.x - side.x) >= F(0) - F(0.25) * abs(x) &&
-                           min(side.y - low.y, high.y - side.y) >= F(0) - F(0.25) * abs(y);
-        edge = select(shown, step * step + F(1e-8), F(1e8));
-        least = min(least, select(shown, abs(step), F(kMostStep)));
-        return found;
-      };
-      F edge_on(0), edge_back(0);
-      const F on = beside(x, y, edge_on), back = beside(F(0) - x, F(0) - y, edge_back);
-      steps = steps + F(1 / kApart) * least;
-      const F of_all = F(1) / (edge_on + edge_back);
-      const F share_on = edge_back * of_all, share_back = edge_on * of_all;
-      const F mean = share_on * on + share_back * back;
-      const F rise = share_on * (on - depth) - share_back * (back - depth);
-      return origin_step + mean * ray_step + rise * ray;
-    };
-    const Vec3<F> across = tangent(given<F>(kApart / c.size.x, "caustics.columns"), F(0),
-                                   vec3_of<F>(kApart * c.rays.origin_dx, "caustics.origin_across"),
-                                   vec3_of<F>(kApart * c.rays.ray_dx, "caustics.ray_across"));
-    const Vec3<F> down = tangent(F(0), given<F>(kApart / c.size.y, "caustics.rows"),
-                                 vec3_of<F>(kApart * c.rays.origin_dy, "caustics.origin_down"),
-                                 vec3_of<F>(kApart * c.rays.ray_dy, "caustics.ray_down"));
-    const Vec3<F> normal = given<F>(light.facing, "caustics.facing") * cross(across, down);
-    const F squared = dot(normal, normal);
-    const auto sane = squared > F(1e-36) && squared < F(1e36);
-    // The ray's end may lie half a texel from the texel's centre.
-    const F off = abs(F(1) - p.hit_depth / depth) / (F(1 - kSameDepth) + F(0.5) * steps);
-    return {(F(1) / sqrt(select(sane, squared, F(1)))) * normal,
-            select(sane, saturate(F(2) - off), F(0))};
   }
 
   template <class F>

@@ -7,6 +7,7 @@
 #include "op/operator.h"
 #include "op/round_edge.h"
 #include "op/screen_ray.h"
+#include "op/seen_slope.h"
 #include "op/water_medium.h"
 #include "optics/clear_sky.h"
 #include "optics/refract.h"
@@ -163,7 +164,17 @@ struct MirroredPicture : FresnelReflection {
     };
     const auto found = MirrorSearch<F, Tap>::march(c, tap, lanes, PlaneId::kDepth, c.dry, p, ray,
                                                    how, on_side, thicker);
-    return {bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift), found.hit, found.distance};
+    Rgb<F> light = bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift);
+    const auto hit = found.hit > F(0);
+    // A ray that meets a surface from behind ends at the hidden side of a thing, like the underside
+    // of a deck, which is mostly in the shade.
+    if_any(hit, [&] {
+      constexpr double kHidden = 0.3, kFull = 10;  // of the light of the visible side; per cosine
+      const Vec3<F> normal = seen_slope(c, p, tap, found.shift).normal;
+      const F hidden = saturate(F(kFull) * dot(normal, mirrored_ray(c, p, n)));
+      light = select(hit, (F(1) - F(1 - kHidden) * hidden) * light, light);
+    });
+    return {light, found.hit, found.distance};
   }
 
   /// What the dry picture itself shows of the mirrored ray, and the surroundings for the rest: of

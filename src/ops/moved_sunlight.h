@@ -26,7 +26,6 @@ struct MovedSunlight : Caustics {
     bool estimated;                ///< from its shadows: CausticsTable::sun_over_rest
     bool bends, moves;             ///< the water bends it, and shadows on the bottom are known
     bool entries;                  ///< knows_entries()
-    double facing;                 ///< 1 or -1: the sign of across x down towards the viewer
     std::array<double, 3> around;  ///< share of the light of sunlit bottoms, if it is known
   };
   /// Ratio of two depths below which the farther place counts as hidden by the nearer place.

@@ -150,6 +150,34 @@ TEST(MirroredPicture, MeetsTheWallBehindAPole) {
   }
 }
 
+// A deck half a metre over the water, seen from above: mirrored rays meet its underside, which the
+// picture does not show.
+TEST(MirroredPicture, TheUndersideOfADeckIsDark) {
+  Poles deck(1000, {0, 0}, 1, 0, 0);
+  const auto distance = [&](int x, int y) { return -1.5 / std::min(deck.ray(x, y).y, -1e-9); };
+  const auto on_deck = [&](int x, int y) {
+    return x >= 100 && x < 220 && distance(x, y) > 5 && distance(x, y) < 9;
+  };
+  deck.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    return on_deck(x, y) ? static_cast<float>(distance(x, y)) : deck.depth(x, y);
+  });
+  deck.buffers.set(PlaneId::kColorR, [&](int x, int y) { return on_deck(x, y) ? kInside : kWall; });
+  int under = 0, beside = 0;
+  deck.each([&](int x, int y, float color) {
+    const double sinks = -deck.ray(x, y).y;
+    if (on_deck(x, y) || sinks < 0.32 || sinks > 0.44) return;
+    if (x > 110 && x < 210) {
+      EXPECT_NEAR(color, 0.3f * kInside, 0.05f * kInside) << x << ", " << y;
+      ++under;
+    } else if (x < 90 || x > 230) {
+      EXPECT_FLOAT_EQ(color, kWall) << x << ", " << y;
+      ++beside;
+    }
+  });
+  EXPECT_GT(under, 500);
+  EXPECT_GT(beside, 500);
+}
+
 // A pole is as thick as it is narrow: rays that pass farther behind it do not meet it.
 TEST(MirroredPicture, APoleIsAsThickAsItIsNarrow) {
   const Poles poles(1000, {0.3, 0.02}, 10, 158, 162);
