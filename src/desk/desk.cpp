@@ -241,7 +241,7 @@ Desk::Painted Desk::run(const DeskChoice& choice, std::vector<Aov> aovs, bool ha
   painted.unread = unread_parameters(plan, painted.frame, scene);
   painted.warnings = warnings_of(job, held.plate(), plan);
   if (!half) {
-    warn_of_pixels(plan, painted.frame, scene, held.transparent(), painted.warnings);
+    warn_of_pixels(job, plan, painted.frame, scene, held.transparent(), painted.warnings);
     const OffFrameLookups off_frame = off_frame_lookups_of(plan, painted.frame, scene);
     if (off_frame.any()) painted.advice.push_back(to_text(off_frame));
   }

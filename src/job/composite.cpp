@@ -137,7 +137,7 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
   }
   surveyed.off_frame = off_frame_lookups_of(plan, frame, scene);
   surveyed.warnings = warnings_of(job, prepared.plate, plan);
-  warn_of_pixels(plan, frame, scene, loaded.transparent, surveyed.warnings);
+  warn_of_pixels(job, plan, frame, scene, loaded.transparent, surveyed.warnings);
   warn_of_off_frame(surveyed.off_frame, surveyed.warnings);
   refuse_warnings(job.output.strict, surveyed.warnings);
   return surveyed;

@@ -29,7 +29,7 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
 
 /// Adds warnings about the pixels, for probable mistakes (picture_warnings.h); `transparent` is
 /// LoadedPlate's.
-void warn_of_pixels(const Plan& plan, const Frame& frame, const Scene& scene, double transparent,
-                    std::vector<std::string>& warnings);
+void warn_of_pixels(const CompositeJob& job, const Plan& plan, const Frame& frame,
+                    const Scene& scene, double transparent, std::vector<std::string>& warnings);
 
 }  // namespace limpid

@@ -104,7 +104,7 @@ void CompositeView::read(const CompositeJob& job, PreparedView view, SharedTextu
   report.replaced = loaded_.replaced;
   off_frame_ = off_frame_lookups_of(report.plan, loaded_.frame, scene_);
   report.warnings = warnings_of(job, plate, report.plan);
-  warn_of_pixels(report.plan, loaded_.frame, scene_, loaded_.transparent, report.warnings);
+  warn_of_pixels(job, report.plan, loaded_.frame, scene_, loaded_.transparent, report.warnings);
   warn_of_off_frame(off_frame_, report.warnings);
   if (view.second && view.second->lacks_normals) report.warnings.push_back(no_normals(job));
   for (std::string& warning : manifest_warnings(view.passed, job.output)) {

@@ -308,6 +308,42 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
   warn_of_sky(plan, frame, pass, warnings);
 }
 
+void warn_of_lamps(const Plan& plan, const Frame& frame, std::vector<std::string>& warnings) {
+  const bool of_frame = plan.look.of<WaveNormals>().model == WaveNormals::Model::kPlate;
+  if (!plan.keeps<FresnelReflection>() || !plan.made.has(StatePart::kNormal) || of_frame) return;
+  constexpr int kMost = 512;
+  constexpr double kBright = 16, kMuch = 0.25;
+  const Rect work = frame.work();
+  const int step_x = std::max(1, work.width() / kMost), step_y = std::max(1, work.height() / kMost);
+  std::vector<double> lights;
+  double sum = 0;
+  for (int y = work.y0; y < work.y1; y += step_y) {
+    for (int x = work.x0; x < work.x1; x += step_x) {
+      double light = 0;
+      for (int i = 0; i < 3; ++i) {
+        light += std::max(frame.plane(plane_after(PlaneId::kColorR, i)).at(x, y), 0.0f);
+      }
+      if (!(light < HUGE_VAL)) continue;
+      lights.push_back(light);
+      sum += light;
+    }
+  }
+  const auto pixels = static_cast<double>(lights.size());
+  double bright = 0, count = 0;
+  for (const double light : lights) {
+    if (light * pixels < kBright * sum) continue;
+    bright += light;
+    ++count;
+  }
+  if (!(bright > kMuch * sum)) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%.0f %% of the picture's light is in %.2g %% of its pixels, like that of lamps: "
+                "waves mirror them as hard dashes; expected 16 samples (--samples 16)",
+                100 * bright / sum, 100 * count / pixels);
+  warnings.emplace_back(text);
+}
+
 void warn_of_deep_glass(double share, std::vector<std::string>& warnings) {
   if (share < 0.001) return;
   warnings.push_back(glass_text(share, "the wet pixels show objects under water that are"));

@@ -9,6 +9,9 @@ struct SeenSlope {
   Vec3<F> normal;  ///< unit, towards the viewer; 0 where depths overflow
   F depth;         ///< eye depth at the texel
   F steps;         ///< of depth, from one texel to the next, as a share of it
+  /// Two texels away from a nearer surface on one side, else 0: such a surface may have a part in
+  /// the texel's color, because depth is from one sample of many.
+  Vec2<F> clear;
 };
 
 /// The slope at the texel that is next to `shift`: from depths two pixels to all sides, where those
@@ -16,7 +19,7 @@ struct SeenSlope {
 template <class F, class Tap>
 LIMPID_INLINE SeenSlope<F> seen_slope(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                       Vec2<F> shift) {
-  constexpr double kApart = 2, kMostStep = 0.1;
+  constexpr double kApart = 2, kMostStep = 0.1, kEdge = 0.03;
   const auto depth_at = [&](Vec2<F> place) {
     return min(max(tap.nearest(PlaneId::kDepth, place), F(1e-18)), F(1e18));
   };
@@ -29,9 +32,10 @@ LIMPID_INLINE SeenSlope<F> seen_slope(const Pass& c, const Pixel<F>& p, const Ta
   const F columns = given<F>(kApart / c.size.x, "slope.columns");
   const F rows = given<F>(kApart / c.size.y, "slope.rows");
   F steps(0);
+  Vec2<F> clear{F(0), F(0)};
   const auto tangent = [&](F x, F y, const Vec3<F>& origin_step, const Vec3<F>& ray_step) {
     F least(kMostStep);
-    const auto beside = [&](F step_x, F step_y, F& edge) {
+    const auto beside = [&](F step_x, F step_y, F& edge, F& nearer) {
       const Vec2<F> side{at.x + step_x, at.y + step_y};
       const F found = min(depth_at(side), F(2) * depth);
       // A difference of inverse depths, which are linear across a plane.
@@ -39,12 +43,17 @@ LIMPID_INLINE SeenSlope<F> seen_slope(const Pass& c, const Pixel<F>& p, const Ta
       const auto shown =
           min(side.x - low.x, high.x - side.x) >= F(-0.25) * columns &&  // half a texel
           min(side.y - low.y, high.y - side.y) >= F(-0.25) * rows;
+      nearer = select(shown, step, F(0));
       edge = select(shown, step * step + F(1e-8), F(1e8));
       least = min(least, select(shown, abs(step), F(kMostStep)));
       return found;
     };
-    F edge_on(0), edge_back(0);
-    const F on = beside(x, y, edge_on), back = beside(F(0) - x, F(0) - y, edge_back);
+    F edge_on(0), edge_back(0), nearer_on(0), nearer_back(0);
+    const F on = beside(x, y, edge_on, nearer_on);
+    const F back = beside(F(0) - x, F(0) - y, edge_back, nearer_back);
+    const F to_on = select(nearer_back - abs(nearer_on) > F(kEdge), F(1), F(0));
+    const F to_back = select(nearer_on - abs(nearer_back) > F(kEdge), F(1), F(0));
+    clear = clear + (to_on - to_back) * Vec2<F>{x, y};
     steps = steps + F(1 / kApart) * least;
     const F of_all = F(1) / (edge_on + edge_back);
     const F share_on = edge_back * of_all, share_back = edge_on * of_all;
@@ -63,7 +72,8 @@ LIMPID_INLINE SeenSlope<F> seen_slope(const Pass& c, const Pixel<F>& p, const Ta
   const Vec3<F> normal = given<F>(facing, "slope.facing") * cross(across, down);
   const F squared = dot(normal, normal);
   const auto sane = squared > F(1e-36) && squared < F(1e36);
-  return {select(sane, F(1) / sqrt(select(sane, squared, F(1))), F(0)) * normal, depth, steps};
+  return {select(sane, F(1) / sqrt(select(sane, squared, F(1))), F(0)) * normal, depth, steps,
+          clear};
 }
 
 }  // namespace limpid

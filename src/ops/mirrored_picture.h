@@ -164,15 +164,16 @@ struct MirroredPicture : FresnelReflection {
     };
     const auto found = MirrorSearch<F, Tap>::march(c, tap, lanes, PlaneId::kDepth, c.dry, p, ray,
                                                    how, on_side, thicker);
-    Rgb<F> light = bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift);
+    Rgb<F> light{F(0), F(0), F(0)};
     const auto hit = found.hit > F(0);
     // A ray that meets a surface from behind ends at the hidden side of a thing, like the underside
     // of a deck, which is mostly in the shade.
     if_any(hit, [&] {
       constexpr double kHidden = 0.3, kFull = 10;  // of the light of the visible side; per cosine
-      const Vec3<F> normal = seen_slope(c, p, tap, found.shift).normal;
-      const F hidden = saturate(F(kFull) * dot(normal, mirrored_ray(c, p, n)));
-      light = select(hit, (F(1) - F(1 - kHidden) * hidden) * light, light);
+      const SeenSlope<F> slope = seen_slope(c, p, tap, found.shift);
+      const F hidden = saturate(F(kFull) * dot(slope.normal, mirrored_ray(c, p, n)));
+      const Rgb<F> shown = bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift + slope.clear);
+      light = select(hit, (F(1) - F(1 - kHidden) * hidden) * shown, light);
     });
     return {light, found.hit, found.distance};
   }

@@ -150,6 +150,26 @@ TEST(MirroredPicture, MeetsTheWallBehindAPole) {
   }
 }
 
+// The color of a texel beside a lamp is mixed with the lamp's, but its depth is the wall's.
+TEST(MirroredPicture, ATexelBesideALampDoesNotLightTheWallBehind) {
+  Poles lamp(1000, {0, 0.02}, 8, 150, 170);
+  for (int c = 0; c < 3; ++c) {
+    lamp.buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+      const bool mixed = lamp.is_pole(x - 1, y) || lamp.is_pole(x + 1, y);
+      return lamp.is_pole(x, y) || mixed ? kInside : lamp.depth(x, y) == kInf ? kSky : kWall;
+    });
+  }
+  int walls = 0;
+  lamp.each([&](int x, int y, float color) {
+    const double column = lamp.column_of(lamp.mirrored_at(x, y, lamp.far));
+    const bool beside = (column > 147 && column < 150) || (column > 170 && column < 173);
+    if (lamp.water(x, y) < 9 || lamp.mirrored_at(x, y, lamp.far).y < 0.3 || !beside) return;
+    EXPECT_FLOAT_EQ(color, kWall) << x << ", " << y;
+    ++walls;
+  });
+  EXPECT_GT(walls, 20);
+}
+
 // A deck half a metre over the water, seen from above: mirrored rays meet its underside, which the
 // picture does not show.
 TEST(MirroredPicture, TheUndersideOfADeckIsDark) {

@@ -95,7 +95,8 @@ void write_plate(const std::filesystem::path& path, const PlateOptions& options)
     for (int c = 0; c < 3; ++c) {
       channels.add(std::string(1, "RGB"[c]), [&](int x, int y) {
         const double bad = c == 0 ? std::nan("") : kInfinity;
-        return breaks(x, y, c == 2 ? -1 : 40 + c, bad, wave(x, y, c));
+        const bool lit = options.lamp != 0 && x / 2 == 20 && y / 2 == 2;
+        return breaks(x, y, c == 2 ? -1 : 40 + c, bad, lit ? options.lamp : wave(x, y, c));
       });
     }
     channels.add("A", [](int, int y) { return y < 3 ? 0.5 : 1; });

@@ -24,6 +24,7 @@ struct PlateOptions {
   DepthCode depth_code = [](double z, double) { return z; };
   bool broken = false;  ///< some NaN and inf: 2 in color, 1 in depth, 1 in shadow
   bool camera = false;  ///< with worldToCamera and worldToNDC
+  double lamp = 0;      ///< radiance of two by two pixels of the sky, if not 0
 };
 
 Camera plate_camera(ClipSpace clip = ClipSpace::kGl);

@@ -122,6 +122,22 @@ TEST_F(WarningsTest, AGuessedSky) {
   EXPECT_THAT(said("depth_fog.model=beer_lambert"), Not(HasSubstr("[sky]")));
 }
 
+TEST_F(WarningsTest, LampsThatWavesMirror) {
+  const auto told = HasSubstr("of the picture's light is in");
+  PlateOptions lit;
+  lit.lamp = 50;  // a sixth of the light
+  write_plate(folder_ / "plate.exr", lit);
+  EXPECT_THAT(composite("wet.exr").err, Not(told));
+  lit.lamp = 400;
+  write_plate(folder_ / "plate.exr", lit);
+  EXPECT_THAT(composite("wet.exr").err,
+              HasSubstr("58 % of the picture's light is in 0.17 % of its pixels, like that of "
+                        "lamps: waves mirror them as hard dashes; expected 16 samples"));
+  EXPECT_THAT(composite("wet.exr", {"--samples", "2"}).err, Not(told));
+  EXPECT_THAT(composite("wet.exr", {"--set", "fresnel_reflection.reflectance=none"}).err,
+              Not(told));
+}
+
 TEST_F(WarningsTest, APictureWithoutAWetPixelOrADryOne) {
   close_plate("plate.exr");
   raise_water("-500");
