@@ -12,7 +12,6 @@
 #include "job/picture_warnings.h"
 #include "job/stopwatch.h"
 #include "judge/compare/shown_difference.h"
-#include "ops/depth_fog_kernel.h"
 
 namespace limpid {
 namespace {
@@ -85,12 +84,9 @@ std::vector<ReplacedChoice> replaced_choices(const Look& asked, const Plan& plan
 
 std::vector<UnreadParameter> unread_parameters(const Plan& plan, const Frame& frame,
                                                const Scene& scene) {
-  const bool environment = plan.reads_environment && frame.environment;
-  const bool of_sky =
-      plan.keeps<DepthFog>() && Kernel<DepthFog>::wants_scattered_light(plan.look.of<DepthFog>());
-  if (!of_sky || (!environment && !scene.sky)) return {};
-  return {{"depth_fog.ambient",
-           environment ? "the environment lights the water" : "the scene's sky lights the water"}};
+  const std::string sky = lights_water(plan, frame, scene);
+  if (sky.empty()) return {};
+  return {{"depth_fog.ambient", sky + " lights the water"}};
 }
 
 }  // namespace

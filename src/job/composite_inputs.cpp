@@ -134,6 +134,7 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
 void warn_of_pixels(const CompositeJob& job, const Plan& plan, const Frame& frame,
                     const Scene& scene, double transparent, std::vector<std::string>& warnings) {
   warn_of_picture(plan, frame, scene, warnings);
+  warn_of_ambient(plan, frame, scene, warnings);
   if (job.output.wave_samples == 1) warn_of_lamps(plan, frame, warnings);
   warn_of_deep_glass(transparent, warnings);
 }

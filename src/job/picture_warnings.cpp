@@ -308,6 +308,21 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
   warn_of_sky(plan, frame, pass, warnings);
 }
 
+std::string lights_water(const Plan& plan, const Frame& frame, const Scene& scene) {
+  if (!plan.lit_by_sky || !plan.keeps<DepthFog>()) return "";
+  if (plan.reads_environment && frame.environment) return "the environment";
+  if (frame.sky_radiance || scene.sky) return "the scene's sky";
+  return shown_sky_radiance(frame, pass_of(plan, scene, frame)) ? "the picture's sky" : "";
+}
+
+void warn_of_ambient(const Plan& plan, const Frame& frame, const Scene& scene,
+                     std::vector<std::string>& warnings) {
+  if (plan.look.of<DepthFog>().ambient == DepthFog::Params{}.ambient) return;
+  const std::string sky = lights_water(plan, frame, scene);
+  if (sky.empty()) return;
+  warnings.push_back("depth_fog.ambient changes nothing: " + sky + " lights the water");
+}
+
 void warn_of_lamps(const Plan& plan, const Frame& frame, std::vector<std::string>& warnings) {
   const bool of_frame = plan.look.of<WaveNormals>().model == WaveNormals::Model::kPlate;
   if (!plan.keeps<FresnelReflection>() || !plan.made.has(StatePart::kNormal) || of_frame) return;

@@ -36,6 +36,13 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
 /// Plates with normals of their own have no more samples. Samples some hundred rows and columns.
 void warn_of_lamps(const Plan& plan, const Frame& frame, std::vector<std::string>& warnings);
 
+/// The sky that lights the water in place of depth_fog.ambient; empty if that does.
+std::string lights_water(const Plan& plan, const Frame& frame, const Scene& scene);
+
+/// Adds a sentence if depth_fog.ambient is not the default, and has no effect.
+void warn_of_ambient(const Plan& plan, const Frame& frame, const Scene& scene,
+                     std::vector<std::string>& warnings);
+
 /// Adds a sentence if a thousandth of the wet pixels or more is LoadedPlate::transparent.
 void warn_of_deep_glass(double share, std::vector<std::string>& warnings);
 

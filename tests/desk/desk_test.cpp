@@ -317,11 +317,13 @@ TEST_F(DeskTest, SaysWhatTheTimeWentInto) {
   EXPECT_LE(*painted.wet, 1);
 }
 
-TEST_F(DeskTest, NamesTheParameterWhoseLightTheSceneGives) {
+TEST_F(DeskTest, NamesTheParameterWhoseLightASkyReplaces) {
   DeskOptions options = this->options();
   const PictureRequest murky =
       picture({"depth_fog.model=radiative_transfer", "depth_fog.scattering=0.1,0.1,0.1"});
-  EXPECT_TRUE(Desk(options, *executor_).paint(murky).unread.empty());
+  const auto shown = Desk(options, *executor_).paint(murky).unread;
+  ASSERT_EQ(shown.size(), 1u);
+  EXPECT_EQ(shown[0].why, "the picture's sky lights the water");
   options.job_of = [first = options.job_of](std::optional<int> frame) {
     CompositeJob job = first(frame);
     job.scene.scene.sky = SkyLight{{0.2, 0.3, 0.4}};

@@ -122,6 +122,20 @@ TEST_F(WarningsTest, AGuessedSky) {
   EXPECT_THAT(said("depth_fog.model=beer_lambert"), Not(HasSubstr("[sky]")));
 }
 
+TEST_F(WarningsTest, AnAmbientLightThatASkyReplaces) {
+  const auto said = [&](const std::string& more) {
+    return composite("wet.exr", {"--set", "depth_fog.model=radiative_transfer", "--set", more}).err;
+  };
+  const std::string nothing = "limpid: warning: depth_fog.ambient changes nothing: ";
+  EXPECT_EQ(said("depth_fog.ambient=1,0,0"), nothing + "the picture's sky lights the water\n");
+  EXPECT_EQ(said("depth_fog.ambient=.1,.1,.1"), "");
+  write_text("scene.toml", scene_toml() + "[sky]\nradiance = [0.3, 0.3, 0.4]\n");
+  EXPECT_EQ(said("depth_fog.ambient=1,0,0"), nothing + "the scene's sky lights the water\n");
+  close_plate("plate.exr");
+  write_text("scene.toml", scene_toml());
+  EXPECT_THAT(said("depth_fog.ambient=1,0,0"), Not(HasSubstr("changes nothing")));
+}
+
 TEST_F(WarningsTest, LampsThatWavesMirror) {
   const auto told = HasSubstr("of the picture's light is in");
   PlateOptions lit;
