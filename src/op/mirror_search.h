@@ -18,8 +18,9 @@ namespace limpid {
 struct MirrorSteps {
   int steps;
   double thin, thick;
-  /// Whether, from above the water, objects are as thick as they are narrow, and rays may meet
-  /// surfaces that other objects hide.
+  /// Whether, from above the water, objects are as thick as they are narrow.
+  bool narrow = false;
+  /// Whether, from there, rays may meet surfaces that other objects hide.
   bool guesses = false;
 };
 
@@ -99,12 +100,13 @@ class MirrorSearch {
       return is_behind(t, seen) && !is_behind(max(t - pixel, F(0)), back_of(seen)) &&
              seen < F(1e29);
     };
+    const auto thins = F(how.narrow ? 1 : 0) > F(0.5) && p.side > F(0);
     const auto guesses = F(how.guesses ? 1 : 0) > F(0.5) && p.side > F(0);
     // The same for an object that may be thinner than that.
     const auto meets_at = [&](F t, F seen, const auto& asked) {
       const F back = back_of(seen), whole = back - seen, nearer = max(t - pixel, F(0));
       auto meets = asked && within(t, seen);
-      const auto doubtful = guesses && meets && is_behind(nearer, seen + F(kNarrowest) * whole);
+      const auto doubtful = thins && meets && is_behind(nearer, seen + F(kNarrowest) * whole);
       if_any(doubtful, [&] {
         const F thick = thickness_of(c, tap, plane, t * end, seen, whole);
         meets = meets && !(doubtful && is_behind(nearer, seen + thick));

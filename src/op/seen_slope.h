@@ -9,8 +9,8 @@ struct SeenSlope {
   Vec3<F> normal;  ///< unit, towards the viewer; 0 where depths overflow
   F depth;         ///< eye depth at the texel
   F steps;         ///< of depth, from one texel to the next, as a share of it
-  /// Away from another surface on one side, else 0: two texels from a nearer surface, one from a
-  /// farther one. It may have a part in the texel's color, since depth is from one sample of many.
+  /// Two texels away from a nearer surface on one side, else 0: such a surface may have a part in
+  /// the texel's color, because depth is from one sample of many.
   Vec2<F> clear;
 };
 
@@ -51,12 +51,9 @@ LIMPID_INLINE SeenSlope<F> seen_slope(const Pass& c, const Pixel<F>& p, const Ta
     F edge_on(0), edge_back(0), nearer_on(0), nearer_back(0);
     const F on = beside(x, y, edge_on, nearer_on);
     const F back = beside(F(0) - x, F(0) - y, edge_back, nearer_back);
-    const auto pushed = [](F by, F other) {
-      const F nearer = by - abs(other), farther = F(0) - by - abs(other);
-      return select(nearer > F(kEdge), F(1), select(farther > F(kEdge), F(0.5), F(0)));
-    };
-    clear =
-        clear + (pushed(nearer_back, nearer_on) - pushed(nearer_on, nearer_back)) * Vec2<F>{x, y};
+    const F to_on = select(nearer_back - abs(nearer_on) > F(kEdge), F(1), F(0));
+    const F to_back = select(nearer_on - abs(nearer_back) > F(kEdge), F(1), F(0));
+    clear = clear + (to_on - to_back) * Vec2<F>{x, y};
     steps = steps + F(1 / kApart) * least;
     const F of_all = F(1) / (edge_on + edge_back);
     const F share_on = edge_back * of_all, share_back = edge_on * of_all;

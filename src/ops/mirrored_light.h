@@ -290,7 +290,7 @@ struct MirroredLight : MirroredPicture {
   static constexpr double kLacks = 0.3;  ///< share of the planes' texels
   /// Share of the depth of a pixel's water; less than 1 because depths of surfaces are rounded.
   static constexpr double kAhead = 0.99;
-  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05, false};
+  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05, true, false};
 
   template <class F, class Tap, class Quad>
   static LIMPID_INLINE Four<F> valid(const Pass& c, const Tap& tap, const Quad& quad) {

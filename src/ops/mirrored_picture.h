@@ -144,8 +144,8 @@ struct MirroredPicture : FresnelReflection {
 
   // --- the dry picture ---------------------------------------------------------------------------
 
-  static constexpr MirrorSteps kPictureSteps{48, 0.06, 0.03, true},
-      kLostSteps{8, 0.06, 0.03, false};
+  static constexpr MirrorSteps kPictureSteps{48, 0.06, 0.03, true, true},
+      kLostSteps{8, 0.06, 0.03, false, false};
 
   /// What a mirrored ray meets in the dry picture.
   template <class F>
@@ -170,9 +170,14 @@ struct MirroredPicture : FresnelReflection {
     // of a deck, which is mostly in the shade.
     if_any(hit, [&] {
       constexpr double kHidden = 0.3, kFull = 10;  // of the light of the visible side; per cosine
+      constexpr double kBrighter = 2;              // than a texel that no edge is near
       const SeenSlope<F> slope = seen_slope(c, p, tap, found.shift);
       const F hidden = saturate(F(kFull) * dot(slope.normal, mirrored_ray(c, p, n)));
-      const Rgb<F> shown = bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift + slope.clear);
+      const Rgb<F> own = bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift);
+      const Rgb<F> clear = bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift + slope.clear);
+      const F most(kBrighter);
+      const Rgb<F> shown{min(own.r, most * clear.r), min(own.g, most * clear.g),
+                         min(own.b, most * clear.b)};
       light = select(hit, (F(1) - F(1 - kHidden) * hidden) * shown, light);
     });
     return {light, found.hit, found.distance};
