@@ -116,7 +116,7 @@ Frame Completer::complete_windows(const Plan& plan, const Frame& frame, const Pa
   return whole;
 }
 
-std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
+std::vector<std::string> Completer::made_of_pixels(const Plan& plan, bool has_sky) {
   std::vector<std::string> phrases;
   if (plan.look.water.edges == Water::Edges::kMixed) {
     phrases.emplace_back("mixed edges (water.edges)");
@@ -138,7 +138,7 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan) {
   if (mirrors_picture(plan, plan.planes, false)) {
     phrases.emplace_back("mirrored surfaces beyond the picture (fresnel_reflection.source)");
   }
-  if (plan.keeps<DepthFog>() && !plan.reads_environment &&
+  if (plan.keeps<DepthFog>() && !plan.reads_environment && !has_sky &&
       Kernel<DepthFog>::wants_scattered_light(plan.look.of<DepthFog>())) {
     phrases.emplace_back("the light of the visible sky in the water, without [sky] radiance");
   }

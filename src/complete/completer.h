@@ -49,8 +49,9 @@ class Completer {
                          const std::string& simd);
   /// Waves of the last frame: for its pass.
   const PlateWaves& plate_waves() const { return plate_waves_; }
-  /// The results that a plan needs and that are made of pixels, a phrase each.
-  static std::vector<std::string> made_of_pixels(const Plan& plan);
+  /// The results that a plan needs and that are made of pixels, a phrase each. `has_sky`: whether
+  /// the scene tells the sky's light.
+  static std::vector<std::string> made_of_pixels(const Plan& plan, bool has_sky);
 
  private:
   void complete_surface(PlaneSet made, const Pass& pass, Executor& executor,

@@ -154,17 +154,18 @@ class SkySamples {
 
   /// The mean over the hemisphere that shown_sky_radiance() gives.
   std::optional<Rgb<double>> radiance() const {
-    if (of_elevation_[0].count() == 0) return {};
+    if (count_ == 0) return {};
     const SkyChange with = change();
     const double elevations[] = {with.with_elevation.r, with.with_elevation.g,
                                  with.with_elevation.b};
     const double suns[] = {with.with_sun.r, with.with_sun.g, with.with_sun.b};
     std::array<double, 3> mean{};
     for (std::size_t i = 0; i < 3; ++i) {
+      if (of_elevation_[i].count() == 0) continue;
       const double elevation = of_elevation_[i].mean_x();
       const double sun = of_both_[i].mean_x() - elevation;
       const double level = of_elevation_[i].mean_y() - elevations[i] * elevation - suns[i] * sun;
-      mean[i] = mean_over_sky(level, elevations[i], suns[i]);
+      mean[i] = of_elevation_[i].count() / count_ * mean_over_sky(level, elevations[i], suns[i]);
     }
     return Rgb<double>{mean[0], mean[1], mean[2]};
   }
@@ -174,19 +175,15 @@ class SkySamples {
     const glm::dvec3 view =
         glm::normalize(pass_.rays.ray_at(x - pass_.corner.x + 0.5, y - pass_.corner.y + 0.5));
     const double sine = glm::dot(pass_.up, view);
-    std::array<double, 3> logs;
-    bool shines = sine > 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double color = picture.color[i].at(x, y);
-      shines = shines && color > 0 && color < HUGE_VAL;
-      logs[i] = shines ? std::log(color) : 0;
-    }
-    if (!shines) return;
+    if (!(sine > 0)) return;
+    count_ += 1;
     const double elevation = clear_sky_by_elevation(sine);
     const double sun = clear_sky_by_sun(glm::dot(pass_.sun.direction, view));
     for (std::size_t i = 0; i < 3; ++i) {
-      of_elevation_[i].add(elevation, logs[i]);
-      of_both_[i].add(elevation + sun, logs[i]);
+      const double color = picture.color[i].at(x, y);
+      if (!(color > 0 && color < HUGE_VAL)) continue;
+      of_elevation_[i].add(elevation, std::log(color));
+      of_both_[i].add(elevation + sun, std::log(color));
     }
   }
 
@@ -210,7 +207,8 @@ class SkySamples {
   }
 
   const Pass& pass_;
-  std::array<Line, 3> of_elevation_, of_both_;
+  double count_ = 0;                            // of the samples above the horizon
+  std::array<Line, 3> of_elevation_, of_both_;  // of those that shine in a color
 };
 
 }  // namespace

@@ -84,7 +84,7 @@ std::vector<ReplacedChoice> replaced_choices(const Look& asked, const Plan& plan
 
 std::vector<UnreadParameter> unread_parameters(const Plan& plan, const Frame& frame,
                                                const Scene& scene) {
-  const std::string sky = lights_water(plan, frame, scene);
+  const std::string sky = sky_over_water(plan, frame, scene);
   if (sky.empty()) return {};
   return {{"depth_fog.ambient", sky + " lights the water"}};
 }

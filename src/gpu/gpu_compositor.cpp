@@ -115,7 +115,7 @@ struct __attribute__((visibility("hidden"))) GpuCompositor::State {
   Completer completer;
   std::optional<Plan> plan;
   PlaneSet planned_for;
-  bool planned_sun = false, planned_waves = false;
+  bool planned_sun = false, planned_sky = false, planned_waves = false;
   Primaries planned_primaries = kRec709;
   std::vector<std::string> left_out;
   bool recorded = false;  ///< a frame was recorded with this plan
@@ -125,8 +125,8 @@ struct __attribute__((visibility("hidden"))) GpuCompositor::State {
 };
 
 void GpuCompositor::State::make_plan(const Frame& windows, const Scene& scene) {
-  const bool sun = scene.sun.has_value(), waves = scene.has_waves();
-  const bool same = planned_for == windows.present() && planned_sun == sun &&
+  const bool sun = scene.sun.has_value(), sky = scene.sky.has_value(), waves = scene.has_waves();
+  const bool same = planned_for == windows.present() && planned_sun == sun && planned_sky == sky &&
                     planned_waves == waves && planned_primaries == scene.primaries;
   if (plan && same) return;
   plan.reset();
@@ -136,14 +136,14 @@ void GpuCompositor::State::make_plan(const Frame& windows, const Scene& scene) {
                                        .environment = static_cast<bool>(textures.environment),
                                        .waves = waves,
                                        .primaries = scene.primaries});
-  left_out = Completer::made_of_pixels(made);
+  left_out = Completer::made_of_pixels(made, sky);
   if (!left_out.empty() && !options.leave_out) {
     throw Error("the look " + look.name + " needs steps with pixels in CPU memory, which " +
                 "a GPU frame does not have: " + join(left_out) +
                 "; expected a look without them, or leave_out");
   }
   plan = std::move(made);
-  planned_for = windows.present(), planned_sun = sun, planned_waves = waves;
+  planned_for = windows.present(), planned_sun = sun, planned_sky = sky, planned_waves = waves;
   planned_primaries = scene.primaries;
 }
 

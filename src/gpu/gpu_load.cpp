@@ -17,7 +17,7 @@ ShaderOptions compute_shader(const std::vector<Aov>& list) {
   return options;
 }
 
-std::string gpu_load_text(const Plan& plan, const ShaderProgram& program) {
+std::string gpu_load_text(const Plan& plan, const Scene& scene, const ShaderProgram& program) {
   std::size_t there = program.block.size();
   for (const ProgramTexture& texture : program.textures) {
     const std::size_t texels = static_cast<std::size_t>(texture.width) * texture.height;
@@ -31,7 +31,7 @@ std::string gpu_load_text(const Plan& plan, const ShaderProgram& program) {
                 "device and %.1f MB back\n",
                 program.id.c_str(), program.numbers.size(), program.textures.size(),
                 1e-6 * static_cast<double>(there), 1e-6 * static_cast<double>(back));
-  const std::vector<std::string> made = Completer::made_of_pixels(plan);
+  const std::vector<std::string> made = Completer::made_of_pixels(plan, scene.sky.has_value());
   return std::string(carried) + "on the CPU  " +
          (made.empty() ? "no step that needs pixels" : join(made)) + "\n";
 }

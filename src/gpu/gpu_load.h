@@ -14,6 +14,6 @@ ShaderOptions compute_shader(const std::vector<Aov>& aovs);
 
 /// The work of a frame for GPU and CPU, two lines: its shader, the transfers in both directions,
 /// and the completers before it.
-std::string gpu_load_text(const Plan& plan, const ShaderProgram& program);
+std::string gpu_load_text(const Plan& plan, const Scene& scene, const ShaderProgram& program);
 
 }  // namespace limpid

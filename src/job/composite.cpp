@@ -133,7 +133,7 @@ SurveyedPlan survey_composite(const CompositeJob& job, Executor& executor) {
     const ShaderProgram program =
         program_of(plan, loaded.frame, frame, whole, compute_shader(computed_aovs(job.output)),
                    Gathered::kAll);
-    surveyed.gpu = gpu_load_text(plan, program);
+    surveyed.gpu = gpu_load_text(plan, scene, program);
   }
   surveyed.off_frame = off_frame_lookups_of(plan, frame, scene);
   surveyed.warnings = warnings_of(job, prepared.plate, plan);

@@ -308,7 +308,7 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
   warn_of_sky(plan, frame, pass, warnings);
 }
 
-std::string lights_water(const Plan& plan, const Frame& frame, const Scene& scene) {
+std::string sky_over_water(const Plan& plan, const Frame& frame, const Scene& scene) {
   if (!plan.lit_by_sky || !plan.keeps<DepthFog>()) return "";
   if (plan.reads_environment && frame.environment) return "the environment";
   if (frame.sky_radiance || scene.sky) return "the scene's sky";
@@ -318,14 +318,18 @@ std::string lights_water(const Plan& plan, const Frame& frame, const Scene& scen
 void warn_of_ambient(const Plan& plan, const Frame& frame, const Scene& scene,
                      std::vector<std::string>& warnings) {
   if (plan.look.of<DepthFog>().ambient == DepthFog::Params{}.ambient) return;
-  const std::string sky = lights_water(plan, frame, scene);
+  const std::string sky = sky_over_water(plan, frame, scene);
   if (sky.empty()) return;
   warnings.push_back("depth_fog.ambient changes nothing: " + sky + " lights the water");
 }
 
 void warn_of_lamps(const Plan& plan, const Frame& frame, std::vector<std::string>& warnings) {
   const bool of_frame = plan.look.of<WaveNormals>().model == WaveNormals::Model::kPlate;
-  if (!plan.keeps<FresnelReflection>() || !plan.made.has(StatePart::kNormal) || of_frame) return;
+  const FresnelReflection::Source source = plan.look.of<FresnelReflection>().source;
+  const bool mirrors =
+      plan.keeps<FresnelReflection>() &&
+      (source == FresnelReflection::Source::kAuto || source == FresnelReflection::Source::kPlanar);
+  if (!mirrors || !plan.made.has(StatePart::kNormal) || of_frame) return;
   constexpr int kMost = 512;
   constexpr double kBright = 16, kMuch = 0.25;
   const Rect work = frame.work();
@@ -351,11 +355,12 @@ void warn_of_lamps(const Plan& plan, const Frame& frame, std::vector<std::string
     ++count;
   }
   if (!(bright > kMuch * sum)) return;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "%.0f %% of the picture's light is in %.2g %% of its pixels, like that of lamps: "
-                "waves mirror them as hard dashes; expected 16 samples (--samples 16)",
-                100 * bright / sum, 100 * count / pixels);
+  char text[192];
+  std::snprintf(
+      text, sizeof text,
+      "%.0f %% of the picture's light is in %.2g %% of its pixels, like that of lamps or the sun: "
+      "waves mirror them as hard dashes; expected 16 samples (--samples 16)",
+      100 * bright / sum, 100 * count / pixels);
   warnings.emplace_back(text);
 }
 

@@ -37,7 +37,7 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
 void warn_of_lamps(const Plan& plan, const Frame& frame, std::vector<std::string>& warnings);
 
 /// The sky that lights the water in place of depth_fog.ambient; empty if that does.
-std::string lights_water(const Plan& plan, const Frame& frame, const Scene& scene);
+std::string sky_over_water(const Plan& plan, const Frame& frame, const Scene& scene);
 
 /// Adds a sentence if depth_fog.ambient is not the default, and has no effect.
 void warn_of_ambient(const Plan& plan, const Frame& frame, const Scene& scene,

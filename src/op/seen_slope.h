@@ -8,9 +8,10 @@ template <class F>
 struct SeenSlope {
   Vec3<F> normal;  ///< unit, towards the viewer; 0 where depths overflow
   F depth;         ///< eye depth at the texel
-  F steps;         ///< of depth, from one texel to the next, as a share of it
-  /// Two texels away from a nearer surface on one side, else 0: such a surface may have a part in
-  /// the texel's color, because depth is from one sample of many.
+  F steps;         ///< change of depth from one texel to the next, over the depth
+  /// The shift from the texel to the one two farther from a nearer surface, if such a surface
+  /// borders on one side only; else 0. The nearer surface may have a part in the texel's color,
+  /// because depth is from one sample of many.
   Vec2<F> clear;
 };
 
@@ -39,7 +40,7 @@ LIMPID_INLINE SeenSlope<F> seen_slope(const Pass& c, const Pixel<F>& p, const Ta
       const Vec2<F> side{at.x + step_x, at.y + step_y};
       const F found = min(depth_at(side), F(2) * depth);
       // A difference of inverse depths, which are linear across a plane.
-      const F step = depth / found - F(1);
+      const F step = min(depth / found, F(1e4)) - F(1);
       const auto shown =
           min(side.x - low.x, high.x - side.x) >= F(-0.25) * columns &&  // half a texel
           min(side.y - low.y, high.y - side.y) >= F(-0.25) * rows;

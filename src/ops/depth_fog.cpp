@@ -59,7 +59,7 @@ constexpr Field<P> kFields[] = {
         .when("model", {"beer_lambert", "radiative_transfer"}),
     color<&P::ambient>("ambient", "radiance", {0, 1e6},
                        "Ambient light besides the sun's; for radiative_transfer the sky's light, "
-                       "if neither environment nor scene give it.")
+                       "if neither environment, scene nor visible sky give it.")
         .when("model", {"beer_lambert", "radiative_transfer"}),
     choice<&P::sunlight, kSunlights>("sunlight",
                                      "Path of the sunlight down to the point of scattering.")

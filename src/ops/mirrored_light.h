@@ -62,7 +62,7 @@ struct MirroredLight : MirroredPicture {
   static Mirrored<F> seen_on_march(const Params& params, const Pass& c, const Pixel<F>& p,
                                    const Tap& tap, Vec3<F> n, F part, Vec3<F> low,
                                    F thicker = F(1)) {
-    return reads_planes(params, c) ? seen_in_image(c, p, tap, n, part, low)
+    return reads_planes(params, c) ? seen_in_image(params, c, p, tap, n, part, low)
                                    : seen_in_picture(params, c, p, tap, n, part, low, thicker);
   }
 
@@ -130,8 +130,11 @@ struct MirroredLight : MirroredPicture {
 
   /// What the planes show by a march in the depth of the mirrored scene.
   template <class F, class Tap>
-  static Mirrored<F> seen_in_image(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
-                                   F part, Vec3<F> low) {
+  static Mirrored<F> seen_in_image(const Params& params, const Pass& c, const Pixel<F>& p,
+                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low) {
+    // Looks with one facet leave out the search for narrow things, a seventh of their time.
+    MirrorSteps how = kImageSteps;
+    how.narrow = params.facets == Facets::kSpread;
     Vec2<F> met{F(0), F(0)};
     F hit(0);
     const auto meets = part > F(0);
@@ -141,9 +144,8 @@ struct MirroredLight : MirroredPicture {
       const auto ahead = [&](Vec2<F>, F depth) {
         return depth > F(0) && (depth > F(kAhead) * ray.depth || ray.depth_step < F(0));
       };
-      const auto found =
-          MirrorSearch<F, Tap>::march(c, tap, tap.wet() && meets, PlaneId::kReflectionDepth,
-                                      c.reflection, p, ray, kImageSteps, ahead);
+      const auto found = MirrorSearch<F, Tap>::march(
+          c, tap, tap.wet() && meets, PlaneId::kReflectionDepth, c.reflection, p, ray, how, ahead);
       hit = select(meets, part * found.hit, hit);
       met = found.shift;
     });
@@ -290,7 +292,7 @@ struct MirroredLight : MirroredPicture {
   static constexpr double kLacks = 0.3;  ///< share of the planes' texels
   /// Share of the depth of a pixel's water; less than 1 because depths of surfaces are rounded.
   static constexpr double kAhead = 0.99;
-  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05, true, false};
+  static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05};
 
   template <class F, class Tap, class Quad>
   static LIMPID_INLINE Four<F> valid(const Pass& c, const Tap& tap, const Quad& quad) {

@@ -169,15 +169,21 @@ struct MirroredPicture : FresnelReflection {
     // A ray that meets a surface from behind ends at the hidden side of a thing, like the underside
     // of a deck, which is mostly in the shade.
     if_any(hit, [&] {
-      constexpr double kHidden = 0.3, kFull = 10;  // of the light of the visible side; per cosine
-      constexpr double kBrighter = 2;              // than a texel that no edge is near
+      constexpr double kHidden = 0.3;  // of the light of the visible side
+      constexpr double kFull = 10;     // per cosine between ray and normal
       const SeenSlope<F> slope = seen_slope(c, p, tap, found.shift);
       const F hidden = saturate(F(kFull) * dot(slope.normal, mirrored_ray(c, p, n)));
-      const Rgb<F> own = bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift);
-      const Rgb<F> clear = bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift + slope.clear);
-      const F most(kBrighter);
-      const Rgb<F> shown{min(own.r, most * clear.r), min(own.g, most * clear.g),
-                         min(own.b, most * clear.b)};
+      Rgb<F> shown = bilinear_rgb<F>(tap, PlaneId::kColorR, found.shift);
+      const auto borders = hit && abs(slope.clear.x) + abs(slope.clear.y) > F(0);
+      if_any(borders, [&] {
+        const auto limited = [&](F color, PlaneId plane) {
+          constexpr double kBrighter = 2;
+          const F clear = tap.nearest(plane, found.shift + slope.clear);
+          return select(borders, min(color, F(kBrighter) * max(clear, F(0))), color);
+        };
+        shown = {limited(shown.r, PlaneId::kColorR), limited(shown.g, PlaneId::kColorG),
+                 limited(shown.b, PlaneId::kColorB)};
+      });
       light = select(hit, (F(1) - F(1 - kHidden) * hidden) * shown, light);
     });
     return {light, found.hit, found.distance};

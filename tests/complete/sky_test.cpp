@@ -249,8 +249,13 @@ TEST(Sky, LightsLevelWaterAsAllOfIt) {
     }
   }
   EXPECT_NEAR(radiance(evening)->r, light / weights, 0.01 * light / weights);
+  // Half of the texels are black, or all of them in a color.
+  evening.fall = evening.glow = 0;
+  evening.draw([](int x, int) { return x % 2 == 0 ? 0.0 : -1e4; });
+  EXPECT_NEAR(radiance(evening)->r, 0.5, 1e-6);
+  EXPECT_NEAR(radiance(evening)->g, 1, 1e-6);
   evening.buffers.fill(PlaneId::kColorB, 0);
-  EXPECT_FALSE(radiance(evening));
+  EXPECT_EQ(radiance(evening)->b, 0);
   evening.buffers.fill(PlaneId::kDepth, 5);
   EXPECT_FALSE(radiance(evening));
 }

@@ -14,8 +14,8 @@ namespace limpid {
 /// refracted view ray, per channel with its own index of refraction. The sun's part is the plane
 /// sun_color if the frame has it; else that of a level bottom under the shadow. How much stronger
 /// the sun's light is than all other light, the frame tells at the edges of shadows on its bottom
-/// (complete/sun_share.h) if its light is refracted, or else the sun and the radiance of the sky;
-/// without a sky `sun_share` of the light is the sun's, where the sun is visible.
+/// (complete/sun_share.h) if its light is refracted, or else the sun and the sky's radiance as for
+/// depth_fog; without a sky `sun_share` of the light is the sun's, where the sun is visible.
 ///
 /// The sun lights the dry picture straight. `sunlight` = `refracted` refracts its light, in frames
 /// with sun_color or shadow, also if strength is 0. Slopes and walls then reflect the sun at the

@@ -81,7 +81,7 @@ struct Plan {
   bool reads_environment = false;
   /// Whether one needs the direction of the sun.
   bool needs_sun = false;
-  /// Whether one uses the light of the sky: the environment, else SkyLight of the scene.
+  /// Whether one uses the sky's light: of the environment, else the scene, else the picture.
   bool lit_by_sky = false;
 
   bool keeps(int chain_index) const { return operators[chain_index].verdict == Verdict::kKept; }

@@ -192,7 +192,8 @@ void ShotMeasurement::Parts::describe(const ShotVariant& own) {
   shot.samples = own.job.output.wave_samples;
   shot.simd = own.job.output.simd.empty() ? simd_targets().front() : own.job.output.simd;
   shot.warnings = warnings_of(own.job, variants.plate(), own.plan);
-  warn_of_pixels(own.job, own.plan, own.frame, variants.scene(), variants.transparent(), shot.warnings);
+  warn_of_pixels(own.job, own.plan, own.frame, variants.scene(), variants.transparent(),
+                 shot.warnings);
   shot.off_frame = off_frame_lookups_of(own.plan, own.frame, variants.scene());
 }
 
