@@ -44,9 +44,9 @@ SkyChange sky_change(const Frame& frame, const Pass& pass);
 constexpr double kMostSkyFall = 1.5, kMostSkyGain = 0.4, kMostSkyGlow = 1;
 
 /// The radiance of an even sky that lights level water as the sky does that the frame shows a part
-/// of: the mean over the directions above the horizon, weighted by their cosine with the water's up.
-/// The sky beyond that part goes on from the geometric mean of its colors as sky_change() says, as
-/// dark as a share of its texels is black. None if the frame shows no sky but beside objects.
+/// of: the mean over the directions above the horizon, weighted by their cosine with the water's
+/// up. The sky beyond that part goes on from the geometric mean of its colors as sky_change() says,
+/// as dark as a share of its texels is black. None if the frame shows no sky but beside objects.
 std::optional<Rgb<double>> shown_sky_radiance(const Frame& frame, const Pass& pass);
 
 /// Whether the frame shows sky, by color and depth.

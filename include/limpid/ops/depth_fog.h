@@ -61,9 +61,9 @@ namespace limpid {
 /// `crossing` radiance the surface reflects from below by Fresnel's equations. The sky's radiance
 /// is that of the environment, else the scene's, else the visible sky's, else `ambient`. Views from
 /// under water have the light of water over one level floor, as deep and bright as the visible
-/// bottom in the mean, and a bottom that is lit as that of the level layer: with a shadow each point
-/// by its own albedo, in its mirror image, too. Its unscattered light is all in `transmitted`.
-/// Without the tables of complete/ for a frame there is single scattering only.
+/// bottom in the mean, and a bottom that is lit as that of the level layer: with a shadow each
+/// point by its own albedo, in its mirror image, too. Its unscattered light is all in
+/// `transmitted`. Without the tables of complete/ for a frame there is single scattering only.
 struct DepthFog {
   enum class Model { kLinear, kBeerLambert, kRadiativeTransfer };
   enum class Distance { kEye, kRay, kRefracted };
