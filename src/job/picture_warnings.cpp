@@ -332,6 +332,7 @@ void warn_of_lamps(const Plan& plan, const Frame& frame, std::vector<std::string
   if (!mirrors || !plan.made.has(StatePart::kNormal) || of_frame) return;
   constexpr int kMost = 512;
   constexpr double kBright = 16, kMuch = 0.25;
+  constexpr double kNoise = 3;  // so many bright pixels may be fireflies of the renderer
   const Rect work = frame.work();
   const int step_x = std::max(1, work.width() / kMost), step_y = std::max(1, work.height() / kMost);
   std::vector<double> lights;
@@ -354,7 +355,7 @@ void warn_of_lamps(const Plan& plan, const Frame& frame, std::vector<std::string
     bright += light;
     ++count;
   }
-  if (!(bright > kMuch * sum)) return;
+  if (!(bright > kMuch * sum && count > kNoise)) return;
   char text[192];
   std::snprintf(
       text, sizeof text,

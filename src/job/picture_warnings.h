@@ -31,9 +31,10 @@ namespace limpid {
 void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
                      std::vector<std::string>& warnings);
 
-/// Adds a sentence if waves mirror a picture that has a quarter of its light in pixels 16 times as
-/// bright as its mean, like lamps at night: one sample a pixel does not resolve their images.
-/// Plates with normals of their own have no more samples. Samples some hundred rows and columns.
+/// Adds a sentence if waves mirror a picture that has a quarter of its light in some pixels 16
+/// times as bright as its mean, like lamps at night: one sample a pixel does not resolve their
+/// images. Plates with normals of their own have no more samples. Samples some hundred rows and
+/// columns.
 void warn_of_lamps(const Plan& plan, const Frame& frame, std::vector<std::string>& warnings);
 
 /// The sky that lights the water in place of depth_fog.ambient; empty if that does.
