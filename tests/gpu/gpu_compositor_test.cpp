@@ -271,6 +271,16 @@ TEST_F(GpuHostTest, SaysWhatItWouldLeaveOut) {
   EXPECT_THROW(strict.plan(), Error);
   host->commands.run([&](VkCommandBuffer c) { lax.record(c, frame, picture); });
   EXPECT_GE(lax.left_out().size(), 4u);
+  const auto leaves_sky = [&](const std::optional<SkyLight>& sky) {
+    Scene scene = land.scene;
+    scene.sky = sky;
+    const GpuFrame lit = host->draw(land.frame(), scene);
+    host->commands.run([&](VkCommandBuffer c) { lax.record(c, lit, picture); });
+    const std::string left = join(lax.left_out());
+    return left.find("the light of the visible sky") != std::string::npos;
+  };
+  EXPECT_TRUE(leaves_sky({}));
+  EXPECT_FALSE(leaves_sky(SkyLight{{0.2, 0.3, 0.4}}));
   for (const float value : host->read(canvas)) ASSERT_TRUE(std::isfinite(value));
 }
 
