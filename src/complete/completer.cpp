@@ -172,7 +172,7 @@ void Completer::complete_sky(PlaneSet made, const Plan& plan, const Pass& pass, 
     frame.sky_change = sky_change(frame, pass);
   } else {
     const auto known = known_sky(plan.look.of<FresnelReflection>(), pass);
-    sky_.make_even(frame, known ? *known : guessed_sky(frame), executor);
+    sky_.make_even(frame, known ? *known : guessed_sky(frame, pass), executor);
   }
   for (int i = 0; i < 3; ++i) take(made, plane_after(PlaneId::kSkyR, i), sky_.color(i), frame);
 }

@@ -231,9 +231,12 @@ bool shows_sky(const Frame& frame) {
   return false;
 }
 
-Rgb<double> guessed_sky(const Frame& frame) {
+namespace {
+
+/// The brightness of the surfaces that a picture shows: the mean of the roots of some hundred rows
+/// and columns, squared, so that a few lamps do not count.
+double ground_brightness(const Frame& frame) {
   constexpr int kMost = 256;
-  constexpr double kOverGround = 2;
   const Picture picture(frame);
   const Rect& window = picture.window;
   const int step_x = std::max(1, window.width() / kMost);
@@ -251,8 +254,40 @@ Rgb<double> guessed_sky(const Frame& frame) {
     }
   }
   const double root = count > 0 ? sum / count : 0;
-  const double gray = kOverGround * root * root;
-  return {gray, gray, gray};
+  return root * root;
+}
+
+/// The mean radiance of a clear sky, as a share of the radiance of a white surface that faces its
+/// sun: what the air scatters out of the sun's light on its way, half of it down by molecules and
+/// .8 by haze, scattered once. Optical depths: Bucholtz 1995, "Rayleigh-scattering calculations for
+/// the terrestrial atmosphere", at 610, 550 and 465 nm, and haze of .12 at 550 nm.
+Rgb<double> clear_sky_share(double sine) {
+  constexpr std::array<double, 3> kMolecules{0.064, 0.098, 0.194}, kHaze{0.105, 0.12, 0.149};
+  constexpr double kDown = 0.5, kHazeDown = 0.8;
+  constexpr double kLowest = 0.15;  // the air below is not a flat layer
+  std::array<double, 3> share{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double depth = kMolecules[i] + kHaze[i];
+    const double down = (kDown * kMolecules[i] + kHazeDown * kHaze[i]) / depth;
+    share[i] = std::max(sine, 0.0) * std::expm1(depth / std::max(sine, kLowest)) * down;
+  }
+  return {share[0], share[1], share[2]};
+}
+
+}  // namespace
+
+Rgb<double> guessed_sky(const Frame& frame, const Pass& pass) {
+  constexpr double kOverGround = 2;  // an albedo of .5
+  const double most = kOverGround * ground_brightness(frame);
+  if (!pass.has_sun) return {most, most, most};
+  const double sine = glm::dot(pass.up, pass.sun.direction);
+  const Rgb<double> share = clear_sky_share(sine);
+  const auto guess = [&](double sun, double of_sun) {
+    const double least = std::max(of_sun * sun, most - std::max(sine, 0.0) * sun);
+    return std::sqrt(most * std::min(least, most));
+  };
+  return {guess(pass.sun.color.r, share.r), guess(pass.sun.color.g, share.g),
+          guess(pass.sun.color.b, share.b)};
 }
 
 }  // namespace limpid

@@ -60,10 +60,11 @@ inline std::optional<Rgb<double>> known_sky(const FresnelReflection::Params& loo
   return pass.has_sky ? std::optional(pass.sky) : std::nullopt;
 }
 
-/// The radiance of the sky over a frame that shows none, as a guess: a gray of twice the brightness
-/// of its surfaces, whose mean is that of the roots of their colors, so that a few lamps do not
-/// count. Clear and overcast skies are 1 to 10 times as bright as the ground under them. Samples
-/// some hundred rows and columns of color and depth; 0 if no surface is visible.
-Rgb<double> guessed_sky(const Frame& frame);
+/// The radiance of the sky over a frame that shows none, as a guess. At most: a gray of twice the
+/// brightness of the frame's surfaces, because clear and overcast skies are 1 to 10 times as bright
+/// as the ground under them. With a sun at least: what a clear sky has of the sun's light, and what
+/// level ground of albedo .5 needs besides the sun to be as bright; then the guess is the geometric
+/// mean of most and least in each color. 0 if no surface is visible.
+Rgb<double> guessed_sky(const Frame& frame, const Pass& pass);
 
 }  // namespace limpid

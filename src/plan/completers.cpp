@@ -31,8 +31,8 @@ constexpr CompleterInfo kCompleters[] = {
      {},
      {},
      "The sky of the frame, continued behind the objects that hide it, and above the picture as "
-     "it changes with elevation; without a visible sky the "
-     "sky of the scene, or a gray of twice the frame's brightness."},
+     "it changes with elevation; without a visible sky the sky of the scene, or a guess from the "
+     "frame's brightness and the sun."},
 };
 
 }  // namespace

@@ -33,7 +33,8 @@ TEST(AutoMirror, ShowsTheSkyOfTheSceneOrAGuessWhereThereIsNoSky) {
   Mirror mirror;
   mirror.buffers.fill(PlaneId::kColorA, 0);
   mirror.look.of<FresnelReflection>().color = {0, 0, 0};
-  const Rgb<double> guess = guessed_sky(mirror.buffers.frame);
+  const Rgb<double> guess = guessed_sky(
+      mirror.buffers.frame, Pass(mirror.scene, mirror.buffers.frame, 1.333, kWholeState));
   EXPECT_GT(guess.r, 1);
   EXPECT_GT(mirror.check(mirror.pictures(), static_cast<float>(guess.r)), 100);
   mirror.scene.sky = SkyLight{.radiance = {0.75, 0.75, 0.75}};

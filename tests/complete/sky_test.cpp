@@ -7,6 +7,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "complete/shore.h"
 #include "optics/clear_sky.h"
 #include "support.h"
 
@@ -287,13 +288,18 @@ TEST(Sky, GoesOnToChangeAboveThePicture) {
   }
 }
 
+/// The guess for a picture of the horizon, over level water of the scene.
+Rgb<double> guess(const Horizon& horizon, const Scene& scene = test::Shore::seen_from()) {
+  return guessed_sky(horizon.buffers.frame, Pass(scene, horizon.buffers.frame, 1.333, kWholeState));
+}
+
 TEST(Sky, IsGuessedFromTheBrightnessOfTheGround) {
   Horizon horizon({-3, 10, 30, 25});
   const auto set = [&](float r, float g, float b) {
     horizon.buffers.fill(PlaneId::kColorR, r).fill(PlaneId::kColorG, g).fill(PlaneId::kColorB, b);
   };
   set(0.1f, 0.2f, 0.3f);
-  const Rgb<double> sky = guessed_sky(horizon.buffers.frame);
+  const Rgb<double> sky = guess(horizon);
   EXPECT_NEAR(sky.r, 0.4, 1e-6);
   EXPECT_EQ(sky.r, sky.g);
   EXPECT_EQ(sky.r, sky.b);
@@ -301,14 +307,43 @@ TEST(Sky, IsGuessedFromTheBrightnessOfTheGround) {
   horizon.buffers.set(PlaneId::kColorR, [](int x, int y) {
     return y < 10 ? 50.0f : x == 0 ? std::nanf("") : x == 1 && y == 12 ? 1e4f : 0.1f;
   });
-  EXPECT_NEAR(guessed_sky(horizon.buffers.frame).r, 0.5, 0.15);
+  EXPECT_NEAR(guess(horizon).r, 0.5, 0.15);
   set(-1, -1, -1);
-  EXPECT_EQ(guessed_sky(horizon.buffers.frame).r, 0);
+  EXPECT_EQ(guess(horizon).r, 0);
+}
+
+TEST(Sky, IsGuessedFromTheSunAsWell) {
+  Horizon horizon({-3, 10, 30, 25});
+  for (int c = 0; c < 3; ++c) horizon.buffers.fill(plane_after(PlaneId::kColorR, c), 0.5f);
+  Scene scene = test::Shore::seen_from();
+  const auto with_sun = [&](double elevation, double color) {
+    scene.sun = Sun{.direction = {std::cos(elevation), std::sin(elevation), 0},
+                    .color = {color, color, color}};
+    return guess(horizon, scene);
+  };
+  // An albedo of a half needs a sky of 1 without a sun, and of .75 with a quarter from above.
+  constexpr double kAbove = std::numbers::pi / 2;
+  EXPECT_NEAR(with_sun(kAbove, 0.25).b, std::sqrt(0.75), 1e-6);
+  EXPECT_NEAR(with_sun(std::numbers::pi / 6, 0.25).b, std::sqrt(0.875), 1e-6);
+  // A clear sky sends a level surface .1 to .2 of the sun's light if the sun is high, and is blue.
+  const Rgb<double> clear = with_sun(kAbove, 1);
+  EXPECT_GT(clear.r * clear.r, 0.1);
+  EXPECT_LT(clear.g * clear.g, 0.2);
+  EXPECT_GT(clear.b, 1.2 * clear.r);
+  // The guess is no brighter than without a sun, whatever the sun.
+  for (const double elevation : {-0.3, 0.0, 1e-9, 0.01, 0.1}) {
+    for (const double color : {0.0, 1e-30, 1.0, Sun::kBrightest}) {
+      const Rgb<double> sky = with_sun(elevation, color);
+      EXPECT_LE(sky.b, 1 + 1e-6) << elevation << ", " << color;
+      EXPECT_GE(sky.b, 0.05) << elevation << ", " << color;
+    }
+  }
+  EXPECT_NEAR(with_sun(-0.3, 1).g, 1, 1e-6);
 }
 
 TEST(Sky, IsBlackOverNothing) {
   Horizon horizon({0, 0, 0, 0});
-  EXPECT_EQ(guessed_sky(horizon.buffers.frame).g, 0);
+  EXPECT_EQ(guess(horizon).g, 0);
 }
 
 }  // namespace

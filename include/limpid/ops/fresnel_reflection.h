@@ -32,8 +32,8 @@ namespace limpid {
 /// (op/mirror_search.h). Beyond that surfaces at its edge go on (op/edge_surfaces.h), before the
 /// environment or the sky planes, which are computed (complete/sky.h) and go on to change with
 /// elevation. If the picture shows no sky, these rays end in `color`; if that is 0, in the radiance
-/// of the scene's sky, or else in a gray of twice the picture's brightness. Its `ray` marches over
-/// the depth of the reflection, which is computed if the plate has none (complete/mirror_depth.h).
+/// of the scene's sky, or else in a guess from the picture's brightness and the sun. Its `ray`
+/// marches over the depth of the reflection, computed if missing (complete/mirror_depth.h).
 /// A ray without a hit in that depth ends infinitely far. If the planes show a near object there, 4
 /// pixels or more from where the ray passes the object, the ray takes what it meets in the dry
 /// picture, else the last empty position; without one, and without an environment, the picture in
