@@ -223,17 +223,17 @@ bool Edges::State::find_bands(const EdgePicture& picture, Executor& executor) {
     }
   });
 
-  // A filter covers the whole picture, also objects thinner than a pixel, whose own steps do not
-  // show it.
+  // A filter covers the whole picture, also objects thinner than a pixel, and edges beside others
+  // or beside textures: their own steps do not show it.
   EdgeBlur::Growth whole;
   for (const EdgeBlur::Growth& of_row : resolved) whole.add(of_row);
-  const int filter = whole.grows_at(0) ? 1 : 0;
+  const bool filtered = whole.grows_at(0), no_wider = !whole.grows_at(1);
   for (std::size_t down = 0; down < 2; ++down) {
     rungs[down].resize(growth[down].size());
     for (int tile = 0; tile < static_cast<int>(tiles.area()); ++tile) {
       const EdgeBlur::Growth around = growth_around(down, tile, tiles);
       rungs[down][static_cast<std::size_t>(tile)] =
-          std::max(around.full_at(), around.is_speckled() ? filter : 0);
+          std::max(around.full_at(), filtered && (no_wider || around.is_speckled()) ? 1 : 0);
     }
   }
   bands.assign(sides.size(), {});
@@ -265,7 +265,8 @@ EdgeBlur::Growth Edges::State::growth_around(std::size_t down, int tile, const R
 void Edges::State::paint(const EdgePicture& picture, const EdgeBlur::Step& step, int rung) {
   const Rect& w = picture.window;
   const int full = EdgeBlur::kLadder[static_cast<std::size_t>(rung)];
-  const int half = full + full / 4;  // nearly full counts as full
+  // Nearly full counts as full; the filter's box of one pixel ends in the pixels of the step.
+  const int half = rung == 1 ? 0 : full + full / 4;
   const int across = step.down ? 0 : half, along = step.down ? half : 0;
   const Rect both{step.x, step.y, step.x + (step.down ? 1 : 2), step.y + (step.down ? 2 : 1)};
   const Rect band =

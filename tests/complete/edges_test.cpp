@@ -175,6 +175,28 @@ TEST(Edges, OfWhatIsThinAndUnfilteredStayHard) {
   EXPECT_FALSE(Parted(among_reeds(0, {0.1f, 0.06f, 0.03f})).frame.edges);
 }
 
+// Within three pixels of each edge is the next one: an edge alone does not tell the filter.
+TEST(Edges, OfPalesThatStandClose) {
+  const auto cover = [](int x) {
+    const double inside = 1.6 - std::abs(std::fmod(x + 0.5, 6.4) - 3.2);
+    return std::clamp(inside + 0.5, 0.0, 1.0);
+  };
+  Post post;
+  post.make();
+  for (int c = 0; c < 3; ++c) {
+    const float pale = Post::channel(post.dark, c), water = Post::channel(post.light, c);
+    post.buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int) {
+      return water + static_cast<float>(cover(x)) * (pale - water);
+    });
+  }
+  post.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    return cover(x) > 0.5 ? static_cast<float>(Post::kPostDepth) : post.bottom_depth(y);
+  });
+  const Parted parted(post);
+  ASSERT_TRUE(parted.frame.edges);
+  for (int x = 8; x < 120; ++x) EXPECT_NEAR(parted.cover(x, post), cover(x), 0.06) << x;
+}
+
 TEST(Edges, TextureOfBothSidesDoesNotCount) {
   Post post;
   post.blur = 2;
