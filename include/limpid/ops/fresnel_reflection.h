@@ -57,8 +57,8 @@ namespace limpid {
 ///
 /// If the frame has reflection_valid, only texels with at least half of it count, and only their
 /// depths: geometry behind the clip at the surface is never shown. It is replaced by the last valid
-/// texel along the ray from the pixel (op/valid_lookup.h); if there is none, not even at the pixel,
-/// by the environment; without one, by black. The planes show the eye's side of the surface. A
+/// texel along the ray from the pixel (op/valid_lookup.h); without one, not even at the pixel, by
+/// the environment, what the picture shows (`auto`), or black. The planes show the eye's side. A
 /// camera half in the water sees a little of the other side, at grazing angles: there the dry
 /// picture (`auto`) or the transmitted light (`planar`) replaces the mirrored light.
 struct FresnelReflection {
