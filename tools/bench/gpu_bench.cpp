@@ -1,7 +1,8 @@
 // Times the runner on a GPU over a made-up plate: the shader with its data on the device, beside a
 // shader of the look `realistic` that is written by hand; frames a second from memory to memory, by
-// one runner and by several at once, beside the bus alone with the same bytes; and a first start
-// beside a second one. The best of all rounds counts.
+// one runner and by several at once, and with complete frames in memory that the device reads and
+// writes by itself, beside the bus alone with the same bytes; and a first start beside a second
+// one. The best of all rounds counts.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -78,8 +79,9 @@ class Bench {
     ShaderOptions options;
     options.stage = ShaderOptions::Stage::kCompute;
     options.max_threads = device_->max_threads();
-    OnDevice ours(device_, program_of(plan, plate_.frame, frame, pass, options, Gathered::kAll),
-                  *executor_);
+    const ShaderProgram program =
+        program_of(plan, plate_.frame, frame, pass, options, Gathered::kAll);
+    OnDevice ours(device_, program, *executor_);
     std::optional<OnDevice> rival;
     if (name == "realistic") {
       rival.emplace(device_, realistic_program(look, plate_.frame, plate_.scene), *executor_, true,
@@ -104,6 +106,31 @@ class Bench {
     bus_ = best_of(arguments_.rounds, [&] { return ours.bus_seconds(); });
     std::printf("%-10s bus    %8.3f ms there and back, %.1f GB/s\n", "", 1e3 * bus_,
                 1e-9 * static_cast<double>(ours.bytes()) / bus_);
+    std::list<OnDevice> slots;
+    for (int i = 0; i < kInFlight; ++i) slots.emplace_back(device_, program, *executor_);
+    const double pinned = seconds_of_each(slots, [](OnDevice& slot) { slot.run_frame(); });
+    std::printf(
+        "%-10s frames in pinned memory, complete: %.1f a second, %d at once: %.2f of the "
+        "bus's time\n",
+        "", 1 / pinned, kInFlight, pinned / bus_);
+  }
+
+  /// Seconds of a frame, of kFrames that so many slots run at once.
+  template <class Slots, class Run>
+  double seconds_of_each(Slots& slots, const Run& run) {
+    const int each = kFrames / static_cast<int>(slots.size());
+    return best_of(arguments_.rounds, [&] {
+      return seconds_of([&] {
+               std::vector<std::thread> threads;
+               for (auto& slot : slots) {
+                 threads.emplace_back([&] {
+                   for (int i = 0; i < each; ++i) run(slot);
+                 });
+               }
+               for (std::thread& thread : threads) thread.join();
+             }) /
+             (each * static_cast<int>(slots.size()));
+    });
   }
 
   /// Frames of a sequence in memory, by so many runners at once; seconds of a frame.
@@ -118,20 +145,7 @@ class Bench {
       slots.emplace_back(plate_.frame.work());
       run_one(slots.back().runner, plan, slots.back().picture);
     }
-    return best_of(arguments_.rounds, [&] {
-      return seconds_of([&] {
-               std::vector<std::thread> threads;
-               for (Slot& slot : slots) {
-                 threads.emplace_back([&] {
-                   for (int i = 0; i < kFrames / runners; ++i) {
-                     run_one(slot.runner, plan, slot.picture);
-                   }
-                 });
-               }
-               for (std::thread& thread : threads) thread.join();
-             }) /
-             (kFrames / runners * runners);
-    });
+    return seconds_of_each(slots, [&](Slot& slot) { run_one(slot.runner, plan, slot.picture); });
   }
   void run_one(GpuRunner& runner, const Plan& plan, Picture& picture) {
     runner.run(plan, plate_.frame, plate_.scene, picture.target, *executor_);

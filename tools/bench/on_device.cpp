@@ -91,6 +91,15 @@ double OnDevice::bus_seconds() {
   });
 }
 
+void OnDevice::run_frame() {
+  commands_.run([&](VkCommandBuffer c) {
+    upload(c);
+    turn(device_->vk(), c, outputs_[0].image.handle(), kWritten, kWritten);
+    bindings_.dispatch(c, program_);
+    download(c);
+  });
+}
+
 std::size_t OnDevice::bytes() const {
   std::size_t sum = 0;
   for (const Passage& input : inputs_) sum += input.buffer.size();

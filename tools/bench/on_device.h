@@ -31,6 +31,9 @@ class OnDevice {
   double shader_seconds() const { return (many_ - one_) / kTimes; }
   /// Seconds to copy all textures to the device and the pictures back, without a run.
   double bus_seconds();
+  /// One frame from memory that the device reads and writes by itself, back into such memory:
+  /// textures to the device, the shader, the pictures back.
+  void run_frame();
   /// Bytes of textures, picture and AOVs.
   std::size_t bytes() const;
   /// The first output: four floats per pixel.
