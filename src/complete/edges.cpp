@@ -224,7 +224,8 @@ bool Edges::State::find_bands(const EdgePicture& picture, Executor& executor) {
   });
 
   // A filter covers the whole picture, also objects thinner than a pixel, and edges beside others
-  // or beside textures: their own steps do not show it.
+  // or beside textures: their own steps do not show it. A blur that is wider somewhere could be
+  // taken for a filter.
   EdgeBlur::Growth whole;
   for (const EdgeBlur::Growth& of_row : resolved) whole.add(of_row);
   const bool filtered = whole.grows_at(0), no_wider = !whole.grows_at(1);

@@ -233,8 +233,8 @@ bool shows_sky(const Frame& frame) {
 
 namespace {
 
-/// The brightness of the surfaces that a picture shows: the mean of the roots of some hundred rows
-/// and columns, squared, so that a few lamps do not count.
+/// The brightness of the surfaces that a picture shows: the mean of the roots of the colors in some
+/// hundred rows and columns, squared, so that a few lamps do not count.
 double ground_brightness(const Frame& frame) {
   constexpr int kMost = 256;
   const Picture picture(frame);
@@ -259,12 +259,13 @@ double ground_brightness(const Frame& frame) {
 
 /// The mean radiance of a clear sky, as a share of the radiance of a white surface that faces its
 /// sun: what the air scatters out of the sun's light on its way, half of it down by molecules and
-/// .8 by haze, scattered once. Optical depths: Bucholtz 1995, "Rayleigh-scattering calculations for
-/// the terrestrial atmosphere", at 610, 550 and 465 nm, and haze of .12 at 550 nm.
+/// .8 by haze, scattered once. `sine` is that of the sun's elevation. Optical depths: Bucholtz
+/// 1995, "Rayleigh-scattering calculations for the terrestrial atmosphere", at 610, 550 and 465 nm,
+/// and haze of .12 at 550 nm.
 Rgb<double> clear_sky_share(double sine) {
   constexpr std::array<double, 3> kMolecules{0.064, 0.098, 0.194}, kHaze{0.105, 0.12, 0.149};
   constexpr double kDown = 0.5, kHazeDown = 0.8;
-  constexpr double kLowest = 0.15;  // the air below is not a flat layer
+  constexpr double kLowest = 0.15;  // of the sine: along lower rays the air is no flat layer
   std::array<double, 3> share{};
   for (std::size_t i = 0; i < 3; ++i) {
     const double depth = kMolecules[i] + kHaze[i];

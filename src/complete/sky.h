@@ -62,9 +62,10 @@ inline std::optional<Rgb<double>> known_sky(const FresnelReflection::Params& loo
 
 /// The radiance of the sky over a frame that shows none, as a guess. At most: a gray of twice the
 /// brightness of the frame's surfaces, because clear and overcast skies are 1 to 10 times as bright
-/// as the ground under them. With a sun at least: what a clear sky has of the sun's light, and what
-/// level ground of albedo .5 needs besides the sun to be as bright; then the guess is the geometric
-/// mean of most and least in each color. 0 if no surface is visible.
+/// as the ground under them. With a sun, in each color, at least the larger of the light that a
+/// clear sky has of the sun's, and of the light that level ground of albedo .5 needs besides the
+/// sun to be as bright; then the guess is the geometric mean of most and least. A sun below the
+/// horizon counts as none. 0 if no surface is visible.
 Rgb<double> guessed_sky(const Frame& frame, const Pass& pass);
 
 }  // namespace limpid

@@ -286,8 +286,9 @@ void warn_of_sky(const Plan& plan, const Frame& frame, const Pass& pass,
   if (!mirrors_sky || shows_sky(frame) || known_sky(plan.look.of<FresnelReflection>(), pass))
     return;
   warnings.push_back(
-      "the picture shows no sky: the water mirrors one guessed from the picture's brightness and "
-      "the sun; expected a reflection, an environment, or [sky] radiance");
+      "the picture shows no sky: the water mirrors a sky guessed from the picture's brightness" +
+      std::string(pass.has_sun ? " and the sun" : "") +
+      "; expected a reflection, an environment, or [sky] radiance");
 }
 
 }  // namespace

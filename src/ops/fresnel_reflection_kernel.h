@@ -202,7 +202,9 @@ struct Kernel<FresnelReflection> : MirroredLight {
       if (looks) {
         const F part = pick<F>(i, outlook.parts.x, outlook.parts.y, outlook.parts.z);
         const F low = select(part < F(1), min(lean, outlook.low), lean);
-        const F over = max(lean_over(facets, i, part, low), max(lean, outlook.high));
+        const F over = reads_planes(params, c)
+                           ? max(lean_over(facets, i, part, low), max(lean, outlook.high))
+                           : lean;
         // A ray below the skyline that meets nothing has passed behind a visible object, like a
         // tree's crown, and ends where the picture shows nothing. If it passes not far behind, it
         // sees that object.
@@ -268,8 +270,9 @@ struct Kernel<FresnelReflection> : MirroredLight {
     Vec3<F> parts;  ///< for each facet, the share of its facets whose rays stay below the skyline
     F low, high;  ///< slopes from the mean facet to facets whose rays meet the object there or not
   };
-  /// Rays of a facet of which only a part meets the object are followed to this share of its
-  /// height, and at least this share of it is the height of the other part's rays.
+  /// Rays of a facet of which only a part meets the object are followed to the share kWithin of
+  /// its height. The rays of the other part rise at least to kOver times its height, because the
+  /// object's edge is not known better.
   static constexpr double kWithin = 0.75, kOver = 1.05;
 
   template <class F, class Tap, class Mask>
@@ -304,7 +307,8 @@ struct Kernel<FresnelReflection> : MirroredLight {
   }
 
   /// The lean of those of the i-th of the facets that pass over the skyline, if the share `part` of
-  /// them leans `low`: the mean lean of both stays, as far as half way to the next facet.
+  /// them leans `low`: the mean lean of both stays, but this lean ends half way to the next facet,
+  /// or as far beyond the highest.
   template <class F, class Step>
   static LIMPID_INLINE F lean_over(const ThreeFacets<F>& facets, Step i, F part, F low) {
     const auto& [middle, highest, lowest] = facets.lean;

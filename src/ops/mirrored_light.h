@@ -56,9 +56,9 @@ struct MirroredLight : MirroredPicture {
   }
 
   /// By a march over a depth plane, of the facets n: the share `part` of them may meet something,
-  /// on the ray of the facet `low`; then in the planes of a reflection the rest look along the ray
-  /// of the facet `over`, because n's may show that object, too. `thicker`: factor on the thickness
-  /// of the picture's surfaces, not of a reflection's.
+  /// on the ray of the facet `low`. If they do, in the planes of a reflection the rest look along
+  /// the ray of the facet `over`, because n's may show that object, too. `thicker`: factor on the
+  /// thickness of the picture's surfaces, not of a reflection's.
   template <class F, class Tap>
   static Mirrored<F> seen_on_march(const Params& params, const Pass& c, const Pixel<F>& p,
                                    const Tap& tap, Vec3<F> n, F part, Vec3<F> low, Vec3<F> over,
@@ -172,14 +172,16 @@ struct MirroredLight : MirroredPicture {
       });
       return seen;
     };
+    F lacking(0);
     Mirrored<F> seen = from_outside(
-        whole, seen_at(c, p, tap, open_facet, {select(whole, met, far.place), F(HUGE_VAL)}));
-    const auto lacks = seen.sources.b > F(kLacks);
+        whole,
+        seen_at(c, p, tap, open_facet, {select(whole, met, far.place), F(HUGE_VAL)}, &lacking));
+    const auto lacks = lacking > F(kLacks) && seen.sources.g < F(0.5);
     if (c.environment) {
       const auto misses = hit < F(1);
       if_any(misses, [&] { seen = beyond_edge(c, p, tap, open_facet, own, misses, seen); });
     }
-    seen = shown_instead(c, p, tap, n, (hit <= F(0) && strays) || lacks, far.lost, seen);
+    seen = shown_instead(c, p, tap, open_facet, (hit <= F(0) && strays) || lacks, far.lost, seen);
     if_any(parted, [&] {
       const Mirrored<F> there = from_outside(parted, seen_at(c, p, tap, n, {met, F(HUGE_VAL)}));
       const F share = select(parted, hit, F(0));
@@ -304,9 +306,11 @@ struct MirroredLight : MirroredPicture {
     return seen;
   }
 
+  /// What the planes show at the end of the ray of the facet n, and the surroundings for the share
+  /// `lacking` of the texels there that are not valid, if it is known.
   template <class F, class Tap>
   static Mirrored<F> seen_at(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
-                             const End<F>& end) {
+                             const End<F>& end, F* lacking = nullptr) {
     const auto taps =
         valid_taps(tap, end.shift, [&](const auto& quad) { return valid<F>(c, tap, quad); });
     Rgb<F> seen{taps.read(tap, PlaneId::kReflectionR), taps.read(tap, PlaneId::kReflectionG),
@@ -326,10 +330,12 @@ struct MirroredLight : MirroredPicture {
         lacks = select(below && known, F(0), lacks);  // the water before it is there
       });
     }
-    const auto lacking = lacks > F(1e-5);
-    if_any(lacking, [&] {
-      const F far = select(lacking, lacks, F(0));
-      if (c.environment) seen = seen + far * surroundings(c, p, tap, n);
+    if (lacking) *lacking = lacks;
+    if (!c.environment) return {seen, sources};
+    const auto some = lacks > F(1e-5);
+    if_any(some, [&] {
+      const F far = select(some, lacks, F(0));
+      seen = seen + far * surroundings(c, p, tap, n);
       sources = {sources.r - far, sources.g, far};
     });
     return {seen, sources};

@@ -49,11 +49,10 @@ TEST(Presets, AreTheFilesOfTheFolderAndNamesOfNoLook) {
 /// Water, size and wind are the preset's own; the computation is the base's.
 TEST(Presets, AreThePhysicsOfOneWater) {
   const Look physical = load_look(kData / "looks/physical.toml");
-  const std::string own[] = {"wave_normals.strength",  "wave_normals.tile_size",
-                             "wave_normals.direction", "wave_normals.wind",
-                             "depth_fog.murkiness",    "depth_fog.water_type",
-                             "depth_fog.sediment",     "depth_fog.cdom",
-                             "depth_fog.anisotropy",   "sun_highlight.roughness"};
+  const std::string own[] = {
+      "wave_normals.strength", "wave_normals.tile_size", "wave_normals.direction",
+      "wave_normals.wind",     "depth_fog.murkiness",    "depth_fog.water_type",
+      "depth_fog.sediment",    "depth_fog.cdom",         "depth_fog.anisotropy"};
   for (const char* name : kPresets) {
     const Look look = preset(name);
     EXPECT_EQ(look.name, name);
@@ -96,7 +95,7 @@ TEST(Presets, HarbourIsJerlovs7C) {
   EXPECT_NEAR(loss.b / jerlov.b, 1, 0.25);
 }
 
-/// The presets order murkiness and roughness as their names promise.
+/// The presets order murkiness and tile sizes as their names promise.
 TEST(Presets, StandInOrder) {
   const auto murk = [](const char* name) {
     return Kernel<DepthFog>::extinction(preset(name).of<DepthFog>()).g;

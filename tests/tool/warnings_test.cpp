@@ -112,7 +112,7 @@ TEST_F(WarningsTest, AGuessedSky) {
     if (!more.empty()) words.insert(words.end(), {"--set", more});
     return composite("wet.exr", words).err;
   };
-  const auto guessed = HasSubstr("the picture shows no sky: the water mirrors one guessed from");
+  const auto guessed = HasSubstr("the picture shows no sky: the water mirrors a sky guessed from");
   EXPECT_THAT(said(""), Not(guessed));
   close_plate("plate.exr");
   EXPECT_THAT(said(""), guessed);

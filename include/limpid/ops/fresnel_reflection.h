@@ -57,10 +57,10 @@ namespace limpid {
 ///
 /// If the frame has reflection_valid, only texels with at least half of it count, and only their
 /// depths: geometry behind the clip at the surface is never shown. It is replaced by the last valid
-/// texel along the ray from the pixel (op/valid_lookup.h); without one, not even at the pixel, by
-/// the environment, what the picture shows (`auto`), or black. The planes show the eye's side. A
-/// camera half in the water sees a little of the other side, at grazing angles: there the dry
-/// picture (`auto`) or the transmitted light (`planar`) replaces the mirrored light.
+/// texel along the ray from the pixel (op/valid_lookup.h). If not even the pixel is valid: by what
+/// the picture shows (`ray` of `auto`), else by the environment; without one, by black. The planes
+/// show the eye's side of the surface. A camera half in the water sees a little of the other side,
+/// at grazing angles: there the dry picture (`auto`) or the transmitted light (`planar`) is shown.
 struct FresnelReflection {
   enum class Reflectance { kRim, kLinear, kInversePower, kSchlick, kExact };
   enum class Source { kPlanar, kEnvironment, kConstant, kAuto };
