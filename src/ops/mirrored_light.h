@@ -38,7 +38,7 @@ struct MirroredLight : MirroredPicture {
                               const Tap& tap, Vec3<F> n, Vec2<F> tilt) {
     if (params.source == Source::kConstant) return {constant<F>(params), from_far<F>()};
     if (params.source == Source::kEnvironment) return {surroundings(c, p, tap, n), from_far<F>()};
-    if (marched(params, c)) return seen_on_march(params, c, p, tap, n, F(1), n, n);
+    if (marched(params, c)) return seen_on_march(params, c, p, tap, n, F(1), n);
     Mirrored<F> seen = params.lookup == Lookup::kRay
                            ? seen_at(c, p, tap, n, follow(c, p, tap, n))
                            : seen_at(c, p, tap, n, {given<F>(params.strength) * tilt, F(HUGE_VAL)});
@@ -56,14 +56,13 @@ struct MirroredLight : MirroredPicture {
   }
 
   /// By a march over a depth plane, of the facets n: the share `part` of them may meet something,
-  /// on the ray of the facet `low`. If they do, in the planes of a reflection the rest look along
-  /// the ray of the facet `over`, because n's may show that object, too. `thicker`: factor on the
-  /// thickness of the picture's surfaces, not of a reflection's.
+  /// on the ray of the facet `low`. `thicker`: factor on the thickness of the picture's surfaces,
+  /// not of a reflection's.
   template <class F, class Tap>
   static Mirrored<F> seen_on_march(const Params& params, const Pass& c, const Pixel<F>& p,
-                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low, Vec3<F> over,
+                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low,
                                    F thicker = F(1)) {
-    return reads_planes(params, c) ? seen_in_image(params, c, p, tap, n, part, low, over)
+    return reads_planes(params, c) ? seen_in_image(params, c, p, tap, n, part, low)
                                    : seen_in_picture(params, c, p, tap, n, part, low, thicker);
   }
 
@@ -132,7 +131,7 @@ struct MirroredLight : MirroredPicture {
   /// What the planes show by a march in the depth of the mirrored scene.
   template <class F, class Tap>
   static Mirrored<F> seen_in_image(const Params& params, const Pass& c, const Pixel<F>& p,
-                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low, Vec3<F> over) {
+                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low) {
     // Looks with one facet leave out the search for narrow things, a seventh of their time.
     MirrorSteps how = kImageSteps;
     how.narrow = params.facets == Facets::kSpread;
@@ -151,8 +150,7 @@ struct MirroredLight : MirroredPicture {
       met = found.shift;
     });
     const auto whole = hit >= F(1), parted = hit > F(0) && !whole;
-    const Vec3<F> open_facet = select(parted, over, n);
-    const ScreenRay<F> own = image_ray(c, p, open_facet);
+    const ScreenRay<F> own = image_ray(c, p, n);
     const Vec2<F> infinity = place_at(c, p, own, F(HUGE_VAL));
     const F end_depth = tap.nearest(PlaneId::kReflectionDepth, infinity);
     const auto strays = hit < F(1) && passes_behind(c, p, own, infinity, end_depth);
@@ -174,14 +172,13 @@ struct MirroredLight : MirroredPicture {
     };
     F lacking(0);
     Mirrored<F> seen = from_outside(
-        whole,
-        seen_at(c, p, tap, open_facet, {select(whole, met, far.place), F(HUGE_VAL)}, &lacking));
+        whole, seen_at(c, p, tap, n, {select(whole, met, far.place), F(HUGE_VAL)}, &lacking));
     const auto lacks = lacking > F(kLacks) && seen.sources.g < F(0.5);
     if (c.environment) {
       const auto misses = hit < F(1);
-      if_any(misses, [&] { seen = beyond_edge(c, p, tap, open_facet, own, misses, seen); });
+      if_any(misses, [&] { seen = beyond_edge(c, p, tap, n, own, misses, seen); });
     }
-    seen = shown_instead(c, p, tap, open_facet, (hit <= F(0) && strays) || lacks, far.lost, seen);
+    seen = shown_instead(c, p, tap, n, (hit <= F(0) && strays) || lacks, far.lost, seen);
     if_any(parted, [&] {
       const Mirrored<F> there = from_outside(parted, seen_at(c, p, tap, n, {met, F(HUGE_VAL)}));
       const F share = select(parted, hit, F(0));
