@@ -219,7 +219,8 @@ class Printer {
       case NodeOp::kNot:
         return "(!" + arg(0) + ")";
       case NodeOp::kSelect:
-        return "(" + arg(0) + " ? " + arg(1) + " : " + arg(2) + ")";
+        // Of `?:` compilers make branches, unless both sides are names.
+        return "mix(" + arg(2) + ", " + arg(1) + ", " + arg(0) + ")";
       case NodeOp::kMin:
         return call("min", node);
       case NodeOp::kMax:
@@ -429,6 +430,8 @@ class Printer {
     const Node& node = at(id);
     if (node.op == NodeOp::kPart) return;  // its vector has a name
     if (is_of_frame(id) || is_idle(id)) return;
+    // Of `&&` and `||` compilers make branches, unless the right side is a name.
+    if (node.op == NodeOp::kAnd || node.op == NodeOp::kOr) name(node.args[1], indent);
     std::string words = shared(id, indent);
     if (words.empty()) words = expression(id);
     if (node.op == NodeOp::kRow || is_otherwise(id)) {  // read where it is needed alone
@@ -442,10 +445,17 @@ class Printer {
       names_[id] = std::move(words);
       return;
     }
-    if (words.front() == '(' && is_one(words)) words = words.substr(1, words.size() - 2);
-    names_[id] = fresh('t');
-    line(indent,
-         std::string("const ") + type_word(node.type) + " " + names_[id] + " = " + words + ";");
+    names_[id] = std::move(words);
+    name(id, indent);
+  }
+
+  /// A variable for a node that is written as an expression.
+  void name(int id, int indent) {
+    const auto written = names_.find(id);
+    if (written == names_.end() || written->second.find('(') == std::string::npos) return;
+    const std::string words = std::exchange(written->second, fresh('t'));
+    line(indent, std::string("const ") + type_word(at(id).type) + " " + written->second + " = " +
+                     bare(words) + ";");
   }
 
   struct Shared {

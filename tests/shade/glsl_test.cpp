@@ -63,6 +63,18 @@ TEST_F(GlslTest, ATexelThatAnIfReplacesIsReadWhereItDoesNot) {
   EXPECT_LT(text.find("} else {"), text.find("limpid_texel_color")) << text;
 }
 
+/// Of other words for a choice compilers make branches: a browser took seven times as long for
+/// `physical`.
+TEST_F(GlslTest, NothingButAnIfIsABranch) {
+  const Symbol a = own(PlaneId::kDepth), b = own(PlaneId::kShadow), c = own(PlaneId::kColorR);
+  const auto both = a + b < c && (b + c < a || c * a < b);
+  const std::string text = GlslBody(recording_of(select(both, a * b, b / c))).text();
+  EXPECT_THAT(text, HasSubstr("mix("));
+  EXPECT_THAT(text, Not(HasSubstr(" ? ")));
+  EXPECT_THAT(text, HasSubstr(" && t"));
+  EXPECT_THAT(text, HasSubstr(" || t"));
+}
+
 /// Lookups of one width share an if: four ifs, one after another, would wait for one another.
 TEST_F(GlslTest, LookupsOfOneWidthShareAnIf) {
   const Symbol width = own(PlaneId::kDepth), other = own(PlaneId::kSurfaceDepth);
