@@ -164,7 +164,7 @@ struct Kernel<FresnelReflection> : MirroredLight {
     const F deviation = sqrt(max(variance, F(kLeastVariance))), rise = dot(up, p.normal);
     ThreeFacets<F> facets{{F(0), F(0), F(0)}, {F(1), F(0), F(0)}};
     const bool looks = marched(params, c).has_value();
-    Outlook<F> outlook{{F(1), F(1), F(1)}, F(0)};
+    Outlook<F> outlook{{F(1), F(1), F(1)}, F(0), F(0)};
     if_any(rough, [&] {
       const ThreeFacets<F> some = facets_of(c, p, near, length(level), deviation);
       for (int i = 0; i < 3; ++i) {
@@ -177,7 +177,8 @@ struct Kernel<FresnelReflection> : MirroredLight {
           const Outlook<F> to =
               outlook_of(params, c, p, tap, some, above, near, length(level), deviation);
           outlook.parts = select(above, to.parts, outlook.parts);
-          outlook.lean = select(above, to.lean, outlook.lean);
+          outlook.low = select(above, to.low, outlook.low);
+          outlook.high = select(above, to.high, outlook.high);
         });
       }
     });
@@ -200,15 +201,19 @@ struct Kernel<FresnelReflection> : MirroredLight {
       Mirrored<F> one{black, black};
       if (looks) {
         const F part = pick<F>(i, outlook.parts.x, outlook.parts.y, outlook.parts.z);
-        const F low = select(part < F(1), min(lean, outlook.lean), lean);
+        const F low = select(part < F(1), min(lean, outlook.low), lean);
+        const F over = reads_planes(params, c)
+                           ? max(lean_over(facets, i, part, low), max(lean, outlook.high))
+                           : lean;
         // A ray below the skyline that meets nothing has passed behind a visible object, like a
         // tree's crown, and ends where the picture shows nothing. If it passes not far behind, it
         // sees that object.
+        const Vec3<F> lower = bent(c, p, leaned(low)), higher = bent(c, p, leaned(over));
         F open(1);
         steps<F>(0, reads_planes(params, c) ? 1 : 2, [&](auto k) {
           const F thicker = pick<F>(k, F(1), F(kThicker), F(kThicker));
           const Mirrored<F> seen =
-              seen_on_march(params, c, p, tap, n, part, bent(c, p, leaned(low)), thicker);
+              seen_on_march(params, c, p, tap, n, part, lower, higher, thicker);
           const auto take = open > F(0.5);
           one = {select(take, seen.light, one.light), select(take, seen.sources, one.sources)};
           const auto passed = rough && p.side > F(0) && part >= F(1);
@@ -263,11 +268,12 @@ struct Kernel<FresnelReflection> : MirroredLight {
   template <class F>
   struct Outlook {
     Vec3<F> parts;  ///< for each facet, the share of its facets whose rays stay below the skyline
-    F lean;         ///< slope from the mean facet to a facet whose ray meets the object there
+    F low, high;  ///< slopes from the mean facet to facets whose rays meet the object there or not
   };
-  /// Rays of a facet of which only a part meets the object are followed to this share of its
-  /// height.
-  static constexpr double kWithin = 0.75;
+  /// Rays of a facet of which only a part meets the object are followed to the share kWithin of
+  /// its height. The rays of the other part rise at least to kOver times its height, because the
+  /// object's edge is not known better.
+  static constexpr double kWithin = 0.75, kOver = 1.05;
 
   template <class F, class Tap, class Mask>
   static Outlook<F> outlook_of(const Params& params, const Pass& c, const Pixel<F>& p,
@@ -297,7 +303,18 @@ struct Kernel<FresnelReflection> : MirroredLight {
       const auto own = [](F part) { return select(part > F(0), part, F(1)); };
       parts = {own(parts.x), own(parts.y), own(parts.z)};
     }
-    return {parts, lean_to(F(kWithin) * sine)};
+    return {parts, lean_to(F(kWithin) * sine), lean_to(min(F(kOver) * sine, F(1)))};
+  }
+
+  /// The lean of those of the i-th of the facets that pass over the skyline, if the share `part` of
+  /// them leans `low`: the mean lean of both stays, but this lean ends half way to the next facet,
+  /// or as far beyond the highest.
+  template <class F, class Step>
+  static LIMPID_INLINE F lean_over(const ThreeFacets<F>& facets, Step i, F part, F low) {
+    const auto& [middle, highest, lowest] = facets.lean;
+    const F lean = pick<F>(i, middle, highest, lowest);
+    const F end = F(0.5) * pick<F>(i, middle + highest, F(3) * highest - middle, lowest + middle);
+    return min(end, (lean - part * low) / max(F(1) - part, F(1e-3)));
   }
 
   /// A facet whose mirrored ray would go into the water, leaned until it goes along it: no such

@@ -38,7 +38,7 @@ struct MirroredLight : MirroredPicture {
                               const Tap& tap, Vec3<F> n, Vec2<F> tilt) {
     if (params.source == Source::kConstant) return {constant<F>(params), from_far<F>()};
     if (params.source == Source::kEnvironment) return {surroundings(c, p, tap, n), from_far<F>()};
-    if (marched(params, c)) return seen_on_march(params, c, p, tap, n, F(1), n);
+    if (marched(params, c)) return seen_on_march(params, c, p, tap, n, F(1), n, n);
     Mirrored<F> seen = params.lookup == Lookup::kRay
                            ? seen_at(c, p, tap, n, follow(c, p, tap, n))
                            : seen_at(c, p, tap, n, {given<F>(params.strength) * tilt, F(HUGE_VAL)});
@@ -56,13 +56,14 @@ struct MirroredLight : MirroredPicture {
   }
 
   /// By a march over a depth plane, of the facets n: the share `part` of them may meet something,
-  /// on the ray of the facet `low`. `thicker`: factor on the thickness of the picture's surfaces,
-  /// not of a reflection's.
+  /// on the ray of the facet `low`. If they do, in the planes of a reflection the rest look along
+  /// the ray of the facet `over`, because n's may show that object, too. `thicker`: factor on the
+  /// thickness of the picture's surfaces, not of a reflection's.
   template <class F, class Tap>
   static Mirrored<F> seen_on_march(const Params& params, const Pass& c, const Pixel<F>& p,
-                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low,
+                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low, Vec3<F> over,
                                    F thicker = F(1)) {
-    return reads_planes(params, c) ? seen_in_image(params, c, p, tap, n, part, low)
+    return reads_planes(params, c) ? seen_in_image(params, c, p, tap, n, part, low, over)
                                    : seen_in_picture(params, c, p, tap, n, part, low, thicker);
   }
 
@@ -131,7 +132,7 @@ struct MirroredLight : MirroredPicture {
   /// What the planes show by a march in the depth of the mirrored scene.
   template <class F, class Tap>
   static Mirrored<F> seen_in_image(const Params& params, const Pass& c, const Pixel<F>& p,
-                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low) {
+                                   const Tap& tap, Vec3<F> n, F part, Vec3<F> low, Vec3<F> over) {
     // Looks with one facet leave out the search for narrow things, a seventh of their time.
     MirrorSteps how = kImageSteps;
     how.narrow = params.facets == Facets::kSpread;
@@ -150,7 +151,8 @@ struct MirroredLight : MirroredPicture {
       met = found.shift;
     });
     const auto whole = hit >= F(1), parted = hit > F(0) && !whole;
-    const ScreenRay<F> own = image_ray(c, p, n);
+    const Vec3<F> open_facet = select(parted, over, n);
+    const ScreenRay<F> own = image_ray(c, p, open_facet);
     const Vec2<F> infinity = place_at(c, p, own, F(HUGE_VAL));
     const F end_depth = tap.nearest(PlaneId::kReflectionDepth, infinity);
     const auto strays = hit < F(1) && passes_behind(c, p, own, infinity, end_depth);
@@ -170,20 +172,28 @@ struct MirroredLight : MirroredPicture {
       });
       return seen;
     };
-    F lacking(0);
-    Mirrored<F> seen = from_outside(
-        whole, seen_at(c, p, tap, n, {select(whole, met, far.place), F(HUGE_VAL)}, &lacking));
-    const auto lacks = lacking > F(kLacks) && seen.sources.g < F(0.5);
-    if (c.environment) {
-      const auto misses = hit < F(1);
-      if_any(misses, [&] { seen = beyond_edge(c, p, tap, n, own, misses, seen); });
-    }
-    seen = shown_instead(c, p, tap, n, (hit <= F(0) && strays) || lacks, far.lost, seen);
-    if_any(parted, [&] {
-      const Mirrored<F> there = from_outside(parted, seen_at(c, p, tap, n, {met, F(HUGE_VAL)}));
-      const F share = select(parted, hit, F(0));
+    // Where the rays end that meet nothing, or the only place; then what the part of them meets.
+    Mirrored<F> seen{{F(0), F(0), F(0)}, {F(0), F(0), F(0)}};
+    steps<F>(0, params.facets == Facets::kSpread ? 2 : 1, [&](auto k) {
+      const auto second = pick<F>(k, F(0), F(1), F(1)) > F(0.5), meets_it = whole || second;
+      F lacking(0);
+      Mirrored<F> there =
+          from_outside(meets_it && hit > F(0),
+                       seen_at(c, p, tap, select(second, n, open_facet),
+                               {select(meets_it, met, far.place), F(HUGE_VAL)}, &lacking));
+      only<F>(k, 0, [&] {
+        const auto lacks = lacking > F(kLacks) && there.sources.g < F(0.5);
+        if (c.environment) {
+          const auto misses = hit < F(1);
+          if_any(misses, [&] { there = beyond_edge(c, p, tap, open_facet, own, misses, there); });
+        }
+        const auto asks = (hit <= F(0) && strays) || lacks;
+        there = shown_instead(c, p, tap, open_facet, asks, far.lost, there);
+      });
+      const F share = select(second, select(parted, hit, F(0)), F(1));
       seen.light = seen.light + share * (there.light - seen.light);
       seen.sources = seen.sources + share * (there.sources - seen.sources);
+      return parted;
     });
     return seen;
   }

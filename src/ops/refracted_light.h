@@ -303,8 +303,12 @@ struct RefractedLight : Refraction {
       const Vec2<F> r = p.shift_r, g = p.shift_g, b = p.shift_b;
       F shares[3] = {F(0), F(0), F(0)};
       auto taps_common = no_taps<F>(tap, g);
-      each<F>(3, [&](auto i) {
-        const Vec2<F> shift{pick<F>(i, r.x, g.x, b.x), pick<F>(i, r.y, g.y, b.y)};
+      // Green mostly lies on the common path: then no fourth lookup is needed.
+      const auto apart = abs(p.shift.x - g.x) > F(0) || abs(p.shift.y - g.y) > F(0);
+      const F more = select(apart, F(1), F(0));
+      steps<F>(0, 4, [&](auto i) {
+        Vec2<F> shift{pick<F>(i, r.x, g.x, b.x), pick<F>(i, r.y, g.y, b.y)};
+        only<F>(i, 3, [&] { shift = p.shift; });
         const auto taps = taps_at(shift);
         const Rgb<F> filled = behind(taps, shift);
         const auto channel = [&](int k, PlaneId plane, F filled_k, F stays, Vec2<F>& place,
@@ -319,10 +323,9 @@ struct RefractedLight : Refraction {
         channel(1, green, filled.g, own.g, p.shift_g, p.transmitted.g);
         channel(2, blue, filled.b, own.b, p.shift_b, p.transmitted.b);
         only<F>(i, 1, [&] { taps_common = taps; });
+        only<F>(i, 3, [&] { taps_common = taps; });
+        return pick<F>(i, F(1), F(1), more) > F(0.5);
       });
-      // Green mostly lies on the common path: then no second lookup is needed.
-      const auto apart = abs(p.shift.x - g.x) > F(0) || abs(p.shift.y - g.y) > F(0);
-      if_any(apart, [&] { taps_common = taps_at(p.shift); });
       p.shift = taps_common.place;
       p.hit_depth = depth_of(taps_common);
       tell_light(taps_common);

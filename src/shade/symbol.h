@@ -115,6 +115,7 @@ struct Loop<Symbol> {
   /// No step is skipped: whether a lookup is needed is not known when recording.
   template <class Leap, class Body>
   static void steps(int begin, int end, Leap&&, Body&& body) {
+    if (end - begin == 1) return void(body(Index{Symbol(double(begin))}));
     Recorder::current().loop(begin, end,
                              [&](int index) { return body(Index{Symbol::of(index)}).node(); });
   }

@@ -116,10 +116,11 @@ TEST(AutoMirror, ShowsInThePictureWhatTheReflectionLacks) {
   EXPECT_GT(met, 1000);
 }
 
-/// The crown of a tree over the water: a wall from a height on, in front of the sky. Waves are
-/// far shorter than a pixel.
+/// The crown of a tree over the water, or a ridge: a wall from a height on, in front of the sky.
+/// Waves are far shorter than a pixel.
 struct Crown : Mirror {
-  explicit Crown(double above) {
+  explicit Crown(double above, double top_of_wall = 6, double distance = 20) {
+    top = top_of_wall, far = distance;
     const auto depth = [=, this](int x, int y) {
       const double sinks = ray(x, y).y;
       if (2 + far * sinks > above) return 2 + far * sinks > top ? kInf : static_cast<float>(far);
@@ -127,8 +128,8 @@ struct Crown : Mirror {
     };
     buffers.set(PlaneId::kDepth, depth);
     for (int c = 0; c < 3; ++c) {
-      buffers.set(plane_after(PlaneId::kColorR, c), [=](int x, int y) {
-        return depth(x, y) == kInf ? kSky : depth(x, y) == 20 ? kWall : 1.0f;
+      buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int y) {
+        return depth(x, y) == kInf ? kSky : depth(x, y) == static_cast<float>(far) ? kWall : 1.0f;
       });
     }
     WaveNormals::Params& waves = look.of<WaveNormals>();
@@ -154,6 +155,23 @@ TEST(AutoMirror, MirrorsACrownThatItsRaysPassCloseBehind) {
   EXPECT_LT(Crown(2).light_at(17), kWall);
   // Rays far below a bridge end in the sky behind it.
   EXPECT_GT(Crown(4).light_at(17), 6);
+}
+
+// A far ridge that the facets of a pixel mirror in part: with the planes of a reflection the other
+// part mirrors the sky over it, as without them.
+TEST(AutoMirror, MirrorsTheSkyOverARidgeInTheReflectionAsInThePicture) {
+  Crown ridge(0, 100, 2000), reflected(0, 100, 2000);
+  reflected.buffers.set(PlaneId::kReflectionDepth, [&](int x, int y) {
+    return static_cast<float>(reflected.mirrored_depth(x, y));
+  });
+  for (int c = 0; c < 3; ++c) {
+    reflected.buffers.set(plane_after(PlaneId::kReflectionR, c), [&](int x, int y) {
+      return reflected.mirrored_depth(x, y) == reflected.far ? kWall : kSky;
+    });
+  }
+  for (const double distance : {10.0, 12.0, 14.0, 16.0}) {
+    EXPECT_NEAR(reflected.light_at(distance), ridge.light_at(distance), 0.1) << distance;
+  }
 }
 
 // A wave that mirrors higher than the reflection reaches: the picture of the surroundings is there,
