@@ -201,7 +201,8 @@ struct MirroredLight : MirroredPicture {
   /// What the picture shows of the rays of `lanes`, which pass behind a surface of the planes, or
   /// end where the planes have no data, as at an object's foot. `lost`: 1 for rays that meet
   /// nothing, and for which the planes show no place without a surface. Without an environment it
-  /// is what the picture shows in their direction: sky, beyond its edge, too, or a far surface.
+  /// is what the picture shows in their direction: sky, close beyond its edge, too, or a far
+  /// surface.
   template <class F, class Tap, class Mask>
   static Mirrored<F> shown_instead(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> n,
                                    const Mask& lanes, F lost, Mirrored<F> seen) {
@@ -218,10 +219,11 @@ struct MirroredLight : MirroredPicture {
         const ScreenRay<F> ray(c, p, mirrored_ray(c, p, n));
         const Vec2<F> end = ray.shift_at(F(HUGE_VAL)), at = next_to(c, p, end);
         const F depth = tap.nearest(PlaneId::kDepth, at);
-        const auto in_picture = abs(end.x - at.x) + abs(end.y - at.y) <= F(0);
+        const F beyond = abs(end.x - at.x) + abs(end.y - at.y);
         const auto far_off = depth > F(kAhead) * p.surface_depth || ray.depth_step < F(0);
-        const auto surface = in_picture && far_off && height_at(c, p, at, depth) > F(0);
-        const auto shown = open && (nothing(depth) || surface);
+        const auto surface = beyond <= F(0) && far_off && height_at(c, p, at, depth) > F(0);
+        const auto sky = beyond < F(kNearEdge) && nothing(depth);
+        const auto shown = open && (sky || surface);
         const Rgb<F> far{tap.nearest(PlaneId::kColorR, at), tap.nearest(PlaneId::kColorG, at),
                          tap.nearest(PlaneId::kColorB, at)};
         seen.light = select(shown, far, seen.light);
@@ -301,6 +303,8 @@ struct MirroredLight : MirroredPicture {
   /// Pixels. The depth that complete/mirror_depth.h makes is two pixels wider than its objects.
   static constexpr double kWrong = 4;
   static constexpr double kLacks = 0.3;  ///< share of the planes' texels
+  /// Share of the picture, up to which the sky beyond its edge is taken for that at its edge.
+  static constexpr double kNearEdge = 0.25;
   /// Share of the depth of a pixel's water; less than 1 because depths of surfaces are rounded.
   static constexpr double kAhead = 0.99;
   static constexpr MirrorSteps kImageSteps{16, 0.2, 0.05};

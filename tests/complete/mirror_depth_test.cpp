@@ -118,6 +118,51 @@ TEST(MirrorDepth, AGivenDepthIsMendedOnlyInside) {
   EXPECT_GT(insides, 300);
 }
 
+// A camera that looks down sees the image of a wall in a smaller scale than the wall. Where the
+// wall leaves the picture at its right side, its image goes on to the side; at its left end there
+// is sky.
+TEST(MirrorDepth, GoesOnToTheSide) {
+  constexpr double kAway = 6, kLow = 1, kHigh = 3, kEnd = -2;
+  Shore shore;
+  shore.scene.camera->view =
+      glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 1.5, -1), glm::dvec3(0, 1, 0));
+  const auto wall = [&](int x, int y, double side) {
+    const glm::dvec3 ray = shore.ray(x, y);
+    const double depth = -kAway / ray.z, height = side * (2 + depth * ray.y);
+    const bool there = height > kLow && height < kHigh && depth * ray.x > kEnd;
+    return ray.z < 0 && there ? depth : HUGE_VAL;
+  };
+  shore.buffers.set(PlaneId::kDepth,
+                    [&](int x, int y) { return static_cast<float>(wall(x, y, 1)); });
+  for (int c = 0; c < 3; ++c) {
+    shore.buffers.set(plane_after(PlaneId::kReflectionR, c), [&](int x, int y) {
+      return std::isinf(wall(x, y, -1)) ? 2.0f : 0.2f + 0.1f * test::noise(x, y, c);
+    });
+  }
+  const auto executor = make_executor(1);
+  const View<const float> depth = shore.made(*executor).depth().view();
+  int walls = 0;
+  for (int y = 2; y < kSize.height - 2; ++y) {
+    EXPECT_EQ(depth.at(0, y), kInf) << y;
+    const int right = kSize.width - 1;
+    bool all = true, none = true;
+    for (int x = right - 8; x <= right; ++x) {
+      for (int off = -2; off <= 2; ++off) {
+        const bool there = !std::isinf(wall(x, y + off, -1));
+        const bool inside = !std::isinf(wall(x, y + off, 1));
+        all = all && there, none = none && !there && !inside;
+      }
+    }
+    if (none) {
+      EXPECT_EQ(depth.at(right, y), kInf) << y;
+    }
+    if (!all) continue;
+    EXPECT_NEAR(depth.at(right, y), wall(right, y, -1), 0.2) << y;
+    ++walls;
+  }
+  EXPECT_GT(walls, 5);
+}
+
 // Far away a row of pixels is hundreds of units of water: the mirror's image of a far bank stands
 // right above the bank's line.
 TEST(MirrorDepth, ARayAlongTheWaterMeetsAFarBankAtItsLine) {

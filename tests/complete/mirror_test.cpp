@@ -336,6 +336,10 @@ TEST(AutoMirror, ShowsThePictureInTheDirectionOfWhatTheReflectionHides) {
   }
   EXPECT_GT(skies, 50);
   EXPECT_GT(walls, 50);
+  // Of directions far beyond its edge the picture tells nothing.
+  shore.buffers.normal({0, std::cos(0.5), std::sin(0.5)});
+  const test::Picture high = shore.pictures();
+  for (int x = 4; x < Shore::kSize.width - 4; ++x) EXPECT_EQ(high.color(x, 36).r, 50) << x;
 }
 
 }  // namespace
