@@ -20,6 +20,9 @@ struct EdgeSurfaces {
   /// Blue: the share of surfaces and sky above the water.
   Texture shape;
   double reach;
+  /// 1 if the picture is that of a room: its upper edge shows no sky, and a ceiling. 0 if it shows
+  /// no ceiling or sky in half of it.
+  double closed;
 };
 
 }  // namespace limpid

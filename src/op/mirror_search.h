@@ -179,7 +179,10 @@ class MirrorSearch {
         met = select(hit, t, met);
         before = select(hit, last, before);
         found = select(hit, F(1), found);
-        const auto leads = through || past_edge;
+        // It may lead through a surface that comes nearer along the ray's path, like a ceiling.
+        const auto overhead = open && !hit && behind && !is_behind(last, last_nearest) &&
+                              is_behind(last, back_of(seen)) && seen < F(1e29);
+        const auto leads = through || past_edge || overhead;
         // A surface that the ray crossed behind something else, like a wall behind a pole.
         const auto emerges = guesses && open && !hit && behind && hidden > F(0.5) &&
                              seen > covers && !is_behind(clear, seen) && seen < F(1e29);
@@ -187,7 +190,8 @@ class MirrorSearch {
           F low = last, high = t, front = seen;
           repeat<F>(kHalvings, [&] {
             const F middle = F(0.5) * (low + high), there = seen_at(middle * end);
-            const auto in = is_behind(middle, there) && !is_behind(last, back_of(there));
+            const auto in =
+                is_behind(middle, there) && (overhead || !is_behind(last, back_of(there)));
             // Beyond the edge is what the ray has not yet passed at the end of the step.
             const auto beyond = past_edge && !in && !is_behind(t, there) && !is_behind(high, front);
             const auto back = in || beyond;

@@ -223,11 +223,12 @@ struct MirroredPicture : FresnelReflection {
   /// The light from beyond the picture, for `lanes`: the surfaces that the picture shows at its
   /// edge go on there, if the ray leaves the picture before them: less, the more sky is seen among
   /// them around the place of the edge next to the ray, as far to both sides as the ray is beyond
-  /// the edge, and the higher the ray meets them.
+  /// the edge, and the higher the ray meets them. In a room all rays meet its ceiling.
   template <class F, class Tap, class Mask>
   static Mirrored<F> goes_on(const Pass& c, const Pixel<F>& p, const Tap& tap,
                              const ScreenRay<F>& ray, const Mask& lanes, Mirrored<F> beyond) {
     constexpr int kGuesses = 2;
+    constexpr double kJustBehind = 0.25;  // of the ray's depth
     if (!c.edge_surfaces) return beyond;
     const EdgeSurfaces& surfaces = *c.edge_surfaces;
     const F leaves = ray.s_at(reach_ahead(c, c.dry, p.uv, ray.across));
@@ -256,7 +257,9 @@ struct MirroredPicture : FresnelReflection {
         distance = select(depth > edge, max(ahead, leaves), F(HUGE_VAL));
         look(distance);
       });
-      const auto meets = off && depth > edge;
+      const F closed = given<F>(surfaces.closed);
+      // A ray that leaves a little behind a ceiling has met it between two steps of the march.
+      const auto meets = off && depth > (F(1) - F(kJustBehind) * closed) * edge;
       if_any(meets, [&] {
         // Gaps of sky are wider beyond the edge than at the edge. Of heights of which nothing is
         // known but that they are larger, half are more than twice as large.
@@ -264,7 +267,7 @@ struct MirroredPicture : FresnelReflection {
         const F known = max(height_at(c, p, at, depth), F(0));
         const F wanted = height_at(c, p, ray.shift_at(distance), ray.depth_at(distance));
         const F higher = min(known / max(wanted, F(1e-6)), F(1));
-        const F share = select(meets, goes * goes * higher, F(0)), rest = F(1) - share;
+        const F share = select(meets, max(goes * goes * higher, closed), F(0)), rest = F(1) - share;
         const Rgb<F> shown = tap.lat_long_rgb(surfaces.colors, place);
         beyond = {rest * beyond.light + (share / max(shape.r, F(1e-6))) * shown,
                   rest * beyond.sources + share * from_picture<F>()};

@@ -72,6 +72,7 @@ void NameTable::add_view(const Pass& pass) {
 void NameTable::add_made(const Pass& pass) {
   if (const EdgeSurfaces* surfaces = pass.edge_surfaces) {
     add("edge_surfaces.reach", surfaces->reach);
+    add("edge_surfaces.closed", surfaces->closed);
   }
   if (const Continuation* on = pass.continuation) {
     add_three("continuation.normal", on->normal);

@@ -135,15 +135,37 @@ TEST(EdgeSurfaces, OfALargePictureAreMeansOfItsTexels) {
   }
 }
 
-// Light of the largest number in one texel leaves the rest of the edge as it is.
-TEST(EdgeSurfaces, InfiniteLightStaysWhereItIs) {
-  Shown shown({0, 0, 40, 20});
-  shown.buffers.fill(PlaneId::kDepth, 1).set(PlaneId::kColorR, [](int x, int y) {
-    return x == 3 && y == 0 ? kInf : 2.0f;
-  });
-  shown.make();
-  EXPECT_NEAR(shown.plane(0).at(3, 0), 65504, 1);
-  for (int i = 5; i < 160; ++i) EXPECT_NEAR(shown.plane(0).at(i, 0), 2, 1e-5) << i;
+// A lamp, or light of the largest number, leaves the rest of the edge as it is.
+TEST(EdgeSurfaces, LampsCountAsFourTimesTheMedian) {
+  for (const float lamp : {9.0f, kInf}) {
+    Shown shown({0, 0, 40, 20});
+    shown.buffers.fill(PlaneId::kDepth, 1).set(PlaneId::kColorR, [=](int x, int y) {
+      return x == 3 && y == 0 ? lamp : 2.0f;
+    });
+    shown.make();
+    EXPECT_NEAR(shown.plane(0).at(3, 0), 8, 1e-5);
+    for (int i = 5; i < 160; ++i) EXPECT_NEAR(shown.plane(0).at(i, 0), 2, 1e-5) << i;
+  }
+}
+
+// A hall 3 above the water, with walls at both sides, of which a part may be open to the sky.
+TEST(EdgeSurfaces, ARoomIsClosed) {
+  Shown shown({0, 0, 40, 40});
+  const Rays rays = rays_of(*shown.scene.camera, {40, 40});
+  const auto closed = [&](double ceiling, int open) {
+    shown.buffers.set(PlaneId::kDepth, [=](int x, int y) {
+      if (x < open) return kInf;
+      const double wall = x < 10 || x >= 30 ? 4 : 20;
+      const double rise = rays.ray_at(x + 0.5, y + 0.5).y;
+      return static_cast<float>(rise > 0 ? std::min(wall, (ceiling - 2) / rise) : wall);
+    });
+    shown.make();
+    return shown.made->closed;
+  };
+  EXPECT_EQ(closed(3, 0), 1);
+  EXPECT_EQ(closed(3, 3), 1) << "a window";
+  EXPECT_EQ(closed(3, 20), 0) << "a roof on one side";
+  EXPECT_EQ(closed(1e3, 0), 0) << "a yard";
 }
 
 TEST(EdgeSurfaces, ThreadsDoNotMatter) {

@@ -108,6 +108,23 @@ TEST(MirroredPicture, GoesOnBeyondItsEdge) {
   }
 }
 
+// In a room no ray ends in the sky: not above its walls, and not between two steps of its march.
+TEST(MirroredPicture, OfARoomShowsItsCeiling) {
+  for (const double slope : {0.1, 0.3, 0.5}) {
+    Poles room(1000, {0, slope}, 15, 0, 0);
+    room.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+      const double rise = room.ray(x, y).y;
+      return static_cast<float>(rise > 0 ? std::min(room.far, 2 / rise) : room.depth(x, y));
+    });
+    int wet = 0;
+    room.each([&](int x, int y, float color) {
+      EXPECT_NEAR(color, kWall, 1e-3) << x << ", " << y;
+      ++wet;
+    });
+    EXPECT_GT(wet, 1000);
+  }
+}
+
 // Something narrow goes on only as far as it is wide, like a tree whose top the edge cuts; the more
 // sky is beside it within the ray's distance from the edge, the less.
 TEST(MirroredPicture, GoesOnAsFarAsItIsWide) {
