@@ -179,7 +179,8 @@ class MirrorSearch {
         met = select(hit, t, met);
         before = select(hit, last, before);
         found = select(hit, F(1), found);
-        // It may lead through a surface that comes nearer along the ray's path, like a ceiling.
+        // It may lead through a surface that comes nearer along the ray's path, like a ceiling: but
+        // not past the outline of something round, where the depth that is seen jumps.
         const auto overhead = open && !hit && behind && !is_behind(last, last_nearest) &&
                               is_behind(last, back_of(seen)) && seen < F(1e29);
         const auto leads = through || past_edge || overhead;
@@ -199,7 +200,9 @@ class MirrorSearch {
             low = select(back, low, middle);
             front = select(back, there, front);
           });
-          const auto meets = meets_at(high, front, leads);
+          const F jump = seen_at(max(high - pixel, F(0)) * end) - front;
+          const auto whole = jump < F(kSlope) * (back_of(front) - front);
+          const auto meets = meets_at(high, front, leads) && (!overhead || whole);
           met = select(meets, high, met);
           before = select(meets, low, before);
           found = select(meets, F(1), found);
@@ -272,6 +275,8 @@ class MirrorSearch {
   static constexpr int kHalvings = 5;
   static constexpr int kWidths = 4, kPole = 5, kGuesses = 3;
   static constexpr double kNarrowest = 0.125, kSky = 1e6, kPicture = 640;
+  /// A surface's thicknesses by which it may come nearer from one pixel to the next.
+  static constexpr double kSlope = 4;
 
   /// The thickness of an object that is seen at a shift: `whole`, or as much as the object is
   /// narrow, to the left and right or upwards and downwards.
