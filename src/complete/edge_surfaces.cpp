@@ -1,10 +1,15 @@
 #include "complete/edge_surfaces.h"
 
 #include <algorithm>
+#include <array>
+#include <climits>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
+
+#include <glm/vec2.hpp>
 
 #include "complete/row_heights.h"
 #include "complete/rows.h"
@@ -19,8 +24,8 @@ constexpr int kMostColumns = 1023;
 constexpr double kFarthest = 1e6;
 /// Light is counted up to the largest half: in sums of larger numbers the rest would be lost.
 constexpr float kBrightest = 65504;
-/// A texel counts as at most so many times as bright as the median of the surfaces: the mean of a
-/// ceiling and its lamps would be a haze in the mirror.
+/// In a room a texel counts as at most so many times as bright as the median of the surfaces: the
+/// mean of a ceiling and its lamps would be a haze in the mirror.
 constexpr float kLamp = 4;
 
 /// The outermost texels of a window, in the order of op/round_edge.h.
@@ -76,28 +81,30 @@ class EdgeTexels {
   int columns_;
 };
 
-/// The brightest light that counts.
-float brightest_light(const Frame& frame, const Pass& pass, const EdgeTexels& texels, int columns) {
+/// The median of the largest channels of the surfaces, 0 without surfaces.
+float median_light(const Frame& frame, const Pass& pass, const EdgeTexels& texels, int columns) {
   std::vector<float> lights;
+  glm::ivec2 last(INT_MIN);  // a texel may have several columns
   for (int i = 0; i < 4 * columns; ++i) {
     texels.each_of(i / columns, i % columns, [&](int x, int y) {
       const double z = frame.plane(PlaneId::kDepth).at(x, y);
-      if (!(z < 1e30 && RowHeights(pass, y).at(x, z) > 0)) return;
+      const bool stands = z < 1e30 && RowHeights(pass, y).at(x, z) > 0;
+      if (!stands || glm::ivec2(x, y) == std::exchange(last, {x, y})) return;
       const auto light = [&](int c) {
         return frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
       };
-      lights.push_back(std::max({light(0), light(1), light(2)}));
+      const float most = std::max({light(0), light(1), light(2)});
+      if (most >= 0) lights.push_back(most);
     });
   }
-  if (lights.empty()) return kBrightest;
+  if (lights.empty()) return 0;
   const auto middle = lights.begin() + static_cast<std::ptrdiff_t>(lights.size() / 2);
   std::nth_element(lights.begin(), middle, lights.end());
-  return *middle > 0 ? std::min(kLamp * *middle, kBrightest) : kBrightest;
+  return *middle;
 }
 
-/// EdgeSurfaces::closed: whether most of the upper edge shows surfaces, and a part of them looks
-/// down, like a ceiling between walls. Towards the edge these rise less than half as much as
-/// upright ones.
+/// EdgeSurfaces::closed. A surface that looks down rises less than half as much towards the edge as
+/// an upright one does.
 double closed_at_top(const View<const float>& depth, const Rect& window, const Pass& pass) {
   constexpr int kRows = 32;  // of so many parts of the picture's height
   const int edge = window.y0, inner = edge + std::max(window.height() / kRows, 1);
@@ -111,7 +118,7 @@ double closed_at_top(const View<const float>& depth, const Rect& window, const P
     if (!(inner_z < 1e30)) continue;
     const double rise = at_edge.at(x, z) - at_inner.at(x, inner_z);
     const double upright = at_edge.at(x, z) - at_inner.at(x, z);
-    looks_down += at_inner.at(x, inner_z) > 0 && rise < 0.5 * upright;
+    looks_down += at_inner.at(x, inner_z) > 0 && std::abs(rise) < 0.5 * upright;
   }
   const auto share = [&](int count) { return double(count) / window.width(); };
   return std::min(4 * share(looks_down), 1.0) * std::clamp(2.5 * share(stands) - 1.25, 0.0, 1.0);
@@ -130,7 +137,9 @@ const EdgeSurfaces* EdgeSurfacesMaker::make(const Frame& frame, const Pass& pass
   const int columns = std::min(longer, kMostColumns), around = 4 * columns;
   const EdgeTexels texels(window, columns);
   sums_.assign(static_cast<std::size_t>(around) + 1, {});
-  const float brightest = brightest_light(frame, pass, texels, columns);
+  surfaces_.closed = closed_at_top(depth, window, pass);
+  const float median = surfaces_.closed > 0 ? median_light(frame, pass, texels, columns) : 0;
+  const double brightest = median > 0 ? kLamp * median / surfaces_.closed : kBrightest;
   for (int i = 0; i < around; ++i) {
     Numbers sum{};
     int count = 0;
@@ -143,10 +152,14 @@ const EdgeSurfaces* EdgeSurfacesMaker::make(const Frame& frame, const Pass& pass
         return;
       }
       if (!(heights.at(x, z) > 0)) return;
-      for (int c = 0; c < 3; ++c) {
-        const float light = frame.plane(plane_after(PlaneId::kColorR, c)).at(x, y);
-        sum[static_cast<std::size_t>(c)] += std::clamp(light, -kBrightest, brightest);
+      std::array<double, 3> light;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const PlaneId id = plane_after(PlaneId::kColorR, static_cast<int>(c));
+        light[c] = std::clamp(frame.plane(id).at(x, y), -kBrightest, kBrightest);
       }
+      const double most = std::max({light[0], light[1], light[2]});
+      const double kept = most > brightest ? brightest / most : 1;
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += kept * light[c];
       sum[kStands] += 1;
       sum[kAbove] += 1;
       sum[kDepth] += std::min(z, kFarthest);
@@ -163,7 +176,6 @@ const EdgeSurfaces* EdgeSurfacesMaker::make(const Frame& frame, const Pass& pass
     if (!plane || plane.view().window != whole) plane = Plane(whole);
   }
   surfaces_.reach = 0.5 * longer;
-  surfaces_.closed = closed_at_top(depth, window, pass);
   each_row(executor, {0, 0, around, EdgeSurfaces::kRows}, [&](int row) {
     const double part = row / (EdgeSurfaces::kRows - 1.0);
     for (int i = 0; i < around; ++i) {

@@ -231,10 +231,10 @@ class SideOfRow {
   }
   /// Of 3 x 3 texels, because renders are noisy.
   double light_at(int x) const {
-    const Rect& window = depth_.window;
     double sum = 1e-4;
     for (int c = 0; c < 3; ++c) {
       const View<const float>& plane = frame_.plane(plane_after(PlaneId::kReflectionR, c));
+      const Rect& window = plane.window;
       for (int k = 0; k < 9; ++k) {
         const int at_x = std::clamp(x + k % 3 - 1, window.x0, window.x1 - 1);
         const int at_y = std::clamp(y_ + k / 3 - 1, window.y0, window.y1 - 1);

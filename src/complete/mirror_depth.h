@@ -16,7 +16,9 @@ namespace limpid {
 /// Each point of the dry scene on the eye's side of the calm water is splatted at its mirror image;
 /// the nearest point wins. Small holes, between points farther apart in the mirror than in the
 /// picture, get the greatest depth of their neighbours, and edges grow by up to two pixels. Pixels
-/// that the dry scene does not fill remain infinitely far, like the sky.
+/// that the dry scene does not fill remain infinitely far, like the sky. But what a side of the dry
+/// picture cuts goes on to the side of the reflection, along a plane, while the reflection's colors
+/// are alike, over a quarter of its width at most.
 ///
 /// A renderer that clips the scene at the water shows the insides of objects that stand in it. A
 /// pixel with a dry object in front of the water counts as such an inside if no mirror image is
@@ -27,7 +29,7 @@ namespace limpid {
 /// and a ray that reaches it has met the object.
 class MirrorDepth {
  public:
-  /// Reads depth, the window of the reflection, and reflection_depth and reflection_valid if
+  /// Reads depth, the colors of the reflection, and reflection_depth and reflection_valid if
   /// present.
   void make(const Frame& frame, const WaterView& view, Executor& executor);
 

@@ -20,8 +20,9 @@ struct EdgeSurfaces {
   /// Blue: the share of surfaces and sky above the water.
   Texture shape;
   double reach;
-  /// 1 if the picture is that of a room: its upper edge shows no sky, and a ceiling. 0 if it shows
-  /// no ceiling or sky in half of it.
+  /// Whether the picture is that of a room: 1 if at least nine tenths of its upper edge are
+  /// surfaces and a quarter of it looks down, like a ceiling; 0 if half of the edge or more is
+  /// open, or nothing there looks down; in between it changes linearly with both.
   double closed;
 };
 

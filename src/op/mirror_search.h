@@ -179,8 +179,8 @@ class MirrorSearch {
         met = select(hit, t, met);
         before = select(hit, last, before);
         found = select(hit, F(1), found);
-        // It may lead through a surface that comes nearer along the ray's path, like a ceiling: but
-        // not past the outline of something round, where the depth that is seen jumps.
+        // A step may also lead through a surface that comes nearer along the ray's path, like a
+        // ceiling, but not past the outline of something round, where the depth that is seen jumps.
         const auto overhead = open && !hit && behind && !is_behind(last, last_nearest) &&
                               is_behind(last, back_of(seen)) && seen < F(1e29);
         const auto leads = through || past_edge || overhead;
@@ -201,8 +201,8 @@ class MirrorSearch {
             front = select(back, there, front);
           });
           const F jump = seen_at(max(high - pixel, F(0)) * end) - front;
-          const auto whole = jump < F(kSlope) * (back_of(front) - front);
-          const auto meets = meets_at(high, front, leads) && (!overhead || whole);
+          const auto smooth = jump < F(kSlope) * (back_of(front) - front);
+          const auto meets = meets_at(high, front, leads) && (!overhead || smooth);
           met = select(meets, high, met);
           before = select(meets, low, before);
           found = select(meets, F(1), found);
@@ -275,7 +275,7 @@ class MirrorSearch {
   static constexpr int kHalvings = 5;
   static constexpr int kWidths = 4, kPole = 5, kGuesses = 3;
   static constexpr double kNarrowest = 0.125, kSky = 1e6, kPicture = 640;
-  /// A surface's thicknesses by which it may come nearer from one pixel to the next.
+  /// How much nearer a surface may come from one pixel to the next, in its thicknesses.
   static constexpr double kSlope = 4;
 
   /// The thickness of an object that is seen at a shift: `whole`, or as much as the object is

@@ -223,7 +223,8 @@ struct MirroredPicture : FresnelReflection {
   /// The light from beyond the picture, for `lanes`: the surfaces that the picture shows at its
   /// edge go on there, if the ray leaves the picture before them: less, the more sky is seen among
   /// them around the place of the edge next to the ray, as far to both sides as the ray is beyond
-  /// the edge, and the higher the ray meets them. In a room all rays meet its ceiling.
+  /// the edge, and the higher the ray meets them. In a room these rays
+  /// meet its ceiling.
   template <class F, class Tap, class Mask>
   static Mirrored<F> goes_on(const Pass& c, const Pixel<F>& p, const Tap& tap,
                              const ScreenRay<F>& ray, const Mask& lanes, Mirrored<F> beyond) {

@@ -135,41 +135,67 @@ TEST(EdgeSurfaces, OfALargePictureAreMeansOfItsTexels) {
   }
 }
 
-// A lamp, or light of the largest number, leaves the rest of the edge as it is.
-TEST(EdgeSurfaces, LampsCountAsFourTimesTheMedian) {
-  for (const float lamp : {9.0f, kInf}) {
-    Shown shown({0, 0, 40, 20});
-    shown.buffers.fill(PlaneId::kDepth, 1).set(PlaneId::kColorR, [=](int x, int y) {
-      return x == 3 && y == 0 ? lamp : 2.0f;
-    });
-    shown.make();
-    EXPECT_NEAR(shown.plane(0).at(3, 0), 8, 1e-5);
-    for (int i = 5; i < 160; ++i) EXPECT_NEAR(shown.plane(0).at(i, 0), 2, 1e-5) << i;
-  }
+// Light of the largest number in one texel leaves the rest of the edge as it is.
+TEST(EdgeSurfaces, InfiniteLightStaysWhereItIs) {
+  Shown shown({0, 0, 40, 20});
+  shown.buffers.fill(PlaneId::kDepth, 1).set(PlaneId::kColorR, [](int x, int y) {
+    return x == 3 && y == 0 ? kInf : 2.0f;
+  });
+  shown.make();
+  EXPECT_NEAR(shown.plane(0).at(3, 0), 65504, 1);
+  for (int i = 5; i < 160; ++i) EXPECT_NEAR(shown.plane(0).at(i, 0), 2, 1e-5) << i;
 }
 
-// A hall 3 above the water, with walls at both sides, of which a part may be open to the sky.
-TEST(EdgeSurfaces, ARoomIsClosed) {
-  Shown shown({0, 0, 40, 40});
-  const Rays rays = rays_of(*shown.scene.camera, {40, 40});
-  const auto closed = [&](double ceiling, int open) {
-    shown.buffers.set(PlaneId::kDepth, [=](int x, int y) {
+/// A hall with a ceiling at a height, and walls at both sides, 4 and 20 away. The columns before
+/// `open` show the sky.
+struct Hall : Shown {
+  Hall(double ceiling, int open) : Shown({0, 0, 40, 40}) {
+    const Rays rays = rays_of(*scene.camera, {40, 40});
+    buffers.set(PlaneId::kDepth, [&](int x, int y) {
+      const double wall = x < 10 || x >= 30 ? 4 : 20, rise = rays.ray_at(x + 0.5, y + 0.5).y;
       if (x < open) return kInf;
-      const double wall = x < 10 || x >= 30 ? 4 : 20;
-      const double rise = rays.ray_at(x + 0.5, y + 0.5).y;
       return static_cast<float>(rise > 0 ? std::min(wall, (ceiling - 2) / rise) : wall);
     });
-    shown.make();
-    return shown.made->closed;
-  };
-  EXPECT_EQ(closed(3, 0), 1);
-  EXPECT_EQ(closed(3, 3), 1) << "a window";
-  EXPECT_EQ(closed(3, 20), 0) << "a roof on one side";
-  EXPECT_EQ(closed(1e3, 0), 0) << "a yard";
+    make();
+  }
+};
+
+TEST(EdgeSurfaces, ARoomIsClosed) {
+  EXPECT_EQ(Hall(3, 0).made->closed, 1);
+  EXPECT_EQ(Hall(3, 3).made->closed, 1) << "a window";
+  EXPECT_EQ(Hall(3, 20).made->closed, 0) << "a roof on one side";
+  EXPECT_EQ(Hall(1e3, 0).made->closed, 0) << "a yard";
+  Hall trees(1e3, 0);
+  trees.buffers.set(PlaneId::kDepth, [](int, int y) { return y == 0 ? 3.0f : 20.0f; });
+  trees.make();
+  EXPECT_EQ(trees.made->closed, 0) << "twigs before a wall";
+  Hall turned(1e3, 0);
+  turned.scene.camera->view =
+      glm::lookAt(glm::dvec3(0, 2, 0), glm::dvec3(0, 2, -1), glm::dvec3(0, -1, 0));
+  turned.buffers.fill(PlaneId::kDepth, 2);
+  turned.make();
+  EXPECT_EQ(turned.made->closed, 0) << "a wall, upside down";
+}
+
+// In a room they would be a haze.
+TEST(EdgeSurfaces, LampsOfARoomCountAsFourTimesTheMedian) {
+  for (const float lamp : {9.0f, kInf}) {
+    Hall hall(3, 0);
+    for (int c = 0; c < 3; ++c) {
+      hall.buffers.set(plane_after(PlaneId::kColorR, c), [=](int x, int y) {
+        return x == 20 && y == 0 ? lamp : 2.0f / float(1 + c);
+      });
+    }
+    hall.make();
+    EXPECT_NEAR(hall.plane(0).at(20, 0), 8, 1e-5);
+    EXPECT_NEAR(hall.plane(2).at(20, 0), 8, 1e-5) << "as white as it is";
+    for (int i = 22; i < 40; ++i) EXPECT_NEAR(hall.plane(0).at(i, 0), 2, 1e-5) << i;
+  }
 }
 
 TEST(EdgeSurfaces, ThreadsDoNotMatter) {
   const Shown one({-4, 3, 36, 23}), four({-4, 3, 36, 23}, 4);
+  EXPECT_EQ(one.made->closed, four.made->closed);
   for (int k = 0; k < 6; ++k) {
     for (int row = 0; row < EdgeSurfaces::kRows; ++row) {
       for (int i = 0; i < 160; ++i) ASSERT_EQ(one.plane(k).at(i, row), four.plane(k).at(i, row));

@@ -139,6 +139,9 @@ TEST(MirrorDepth, GoesOnToTheSide) {
       return std::isinf(wall(x, y, -1)) ? 2.0f : 0.2f + 0.1f * test::noise(x, y, c);
     });
   }
+  // Each plane may have its own window.
+  View<const float>& blue = shore.buffers.frame.planes[index_of(PlaneId::kReflectionB)];
+  blue.window.x1 -= 3;
   const auto executor = make_executor(1);
   const View<const float> depth = shore.made(*executor).depth().view();
   int walls = 0;

@@ -63,8 +63,8 @@ TEST_F(GlslTest, ATexelThatAnIfReplacesIsReadWhereItDoesNot) {
   EXPECT_LT(text.find("} else {"), text.find("limpid_texel_color")) << text;
 }
 
-/// Of other words for a choice compilers make branches: a browser took seven times as long for
-/// `physical`.
+/// Of other words for a choice between numbers compilers make branches: a browser took seven times
+/// as long for `physical`.
 TEST_F(GlslTest, NothingButAnIfIsABranch) {
   const Symbol a = own(PlaneId::kDepth), b = own(PlaneId::kShadow), c = own(PlaneId::kColorR);
   const auto both = a + b < c && (b + c < a || c * a < b);
