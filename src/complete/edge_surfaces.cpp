@@ -81,9 +81,11 @@ class EdgeTexels {
   int columns_;
 };
 
-/// The median of the largest channels of the surfaces, 0 without surfaces.
-float median_light(const Frame& frame, const Pass& pass, const EdgeTexels& texels, int columns) {
-  std::vector<float> lights;
+/// The median of the largest channels of the surfaces, 0 without surfaces. Uses the memory of
+/// `lights`.
+float median_light(const Frame& frame, const Pass& pass, const EdgeTexels& texels, int columns,
+                   std::vector<float>& lights) {
+  lights.clear();
   glm::ivec2 last(INT_MIN);  // a texel may have several columns
   for (int i = 0; i < 4 * columns; ++i) {
     texels.each_of(i / columns, i % columns, [&](int x, int y) {
@@ -138,7 +140,8 @@ const EdgeSurfaces* EdgeSurfacesMaker::make(const Frame& frame, const Pass& pass
   const EdgeTexels texels(window, columns);
   sums_.assign(static_cast<std::size_t>(around) + 1, {});
   surfaces_.closed = closed_at_top(depth, window, pass);
-  const float median = surfaces_.closed > 0 ? median_light(frame, pass, texels, columns) : 0;
+  const float median =
+      surfaces_.closed > 0 ? median_light(frame, pass, texels, columns, lights_) : 0;
   const double brightest = median > 0 ? kLamp * median / surfaces_.closed : kBrightest;
   for (int i = 0; i < around; ++i) {
     Numbers sum{};

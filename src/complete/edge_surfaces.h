@@ -26,6 +26,7 @@ class EdgeSurfacesMaker {
   EdgeSurfaces surfaces_;
   std::array<Plane, 6> planes_;  ///< colors, then shape
   std::vector<Numbers> sums_;    ///< one more than columns
+  std::vector<float> lights_;
 };
 
 }  // namespace limpid

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 
 #include <glm/geometric.hpp>
 
+#include "complete/mirror_image.h"
+#include "complete/mirror_sides.h"
 #include "complete/row_heights.h"
 #include "complete/rows.h"
 
@@ -35,47 +36,12 @@ int whole_of(double x) {
   return whole - (whole > x);
 }
 
-/// Positions of mirror images for the pixels of a row. A point's mirror image lies straight below
-/// it, and the line to it crosses the screen like a ScreenRay.
-class Imaged {
- public:
-  Imaged(const WaterView& c, int y)
-      : c_(c),
-        heights_(c, y),
-        down_depth_(-glm::dot(c.forward, c.up)),
-        w_step_(c.w_depth * down_depth_),
-        down_u_(-glm::dot(c.to_u, c.up)),
-        down_v_(-glm::dot(c.to_v, c.up)),
-        v_((y - c.corner.y + 0.5) / c.size.y) {}
-
-  struct Point {
-    double x, y, depth;  ///< pixels
-  };
-  /// Of the point that the pixel x shows at an eye depth, above the water or below it, or nothing.
-  std::optional<Point> at(int x, double depth) const {
-    const double distance = 2 * heights_.at(x, depth);
-    const double u = (x - c_.corner.x + 0.5) / c_.size.x;
-    const double image_depth = depth + distance * down_depth_;
-    const double w = c_.w_origin + c_.w_depth * depth + distance * w_step_;
-    if (!(w > 0 && image_depth > 0)) return {};
-    const double image_u = u + distance * (down_u_ - u * w_step_) / w;
-    const double image_v = v_ + distance * (down_v_ - v_ * w_step_) / w;
-    return Point{image_u * c_.size.x + c_.corner.x, image_v * c_.size.y + c_.corner.y, image_depth};
-  }
-  bool is_above(int x, double depth) const { return heights_.at(x, depth) * c_.eye_above > 0; }
-
- private:
-  const WaterView& c_;
-  RowHeights heights_;
-  double down_depth_, w_step_, down_u_, down_v_, v_;
-};
-
 void scatter_row(const WaterView& c, const View<const float>& dry, int y, const View<float>& to) {
-  const Imaged imaged(c, y);
+  const MirrorImage images(c, y);
   for (int x = dry.window.x0; x < dry.window.x1; ++x) {
     const double depth = dry.at(x, y);
-    if (!(depth > 0 && depth < 1e30 && imaged.is_above(x, depth))) continue;
-    const auto image = imaged.at(x, depth);
+    if (!(depth > 0 && depth < 1e30 && images.is_above(x, depth))) continue;
+    const auto image = images.at(x, depth);
     const Rect& window = to.window;
     if (!(image && image->x >= window.x0 && image->x < window.x1 && image->y >= window.y0 &&
           image->y < window.y1)) {
@@ -165,91 +131,6 @@ void tell_real(const WaterView& c, const View<const float>& dry, const View<cons
   }
 }
 
-/// The image of a point at a side of the dry picture lies nearer to the middle, because the image
-/// is farther away. From there to the side its surface goes on, along a plane, as far as the colors
-/// of the reflection resemble its color, and kSide of the width at most.
-class SideOfRow {
- public:
-  /// `step`: 1 at the right side, -1 at the left.
-  SideOfRow(const Frame& frame, const WaterView& view, const View<float>& depth, int y, int step)
-      : frame_(frame), view_(view), depth_(depth), y_(y), step_(step) {}
-
-  void go_on() {
-    const Rect& window = depth_.window;
-    const int side = step_ > 0 ? window.x1 : window.x0 - 1;
-    const int most = static_cast<int>(kSide * window.width());
-    int count = 0;  // of unknown texels
-    while (count <= most && !is_known(side - step_ * (count + 1))) ++count;
-    const int known = side - step_ * (count + 1);
-    if (count == 0 || count > most || !is_of_side(known)) return;
-    const double per_texel = slope_at(known, std::max(count, 8));
-    const int resemble = resembling(known, count);
-    for (int i = 1; i <= resemble; ++i) {
-      const double inverse = inverse_at(known) + i * per_texel;
-      depth_.at(known + step_ * i, y_) = static_cast<float>(1 / inverse);
-    }
-  }
-
- private:
-  static constexpr double kSide = 0.25, kLike = 2, kSmooth = 0.1;
-  static constexpr double kGrown = 5;  ///< pixels; closed holes widen images by two
-
-  bool is_known(int x) const {
-    return x >= depth_.window.x0 && x < depth_.window.x1 && std::abs(depth_.at(x, y_)) < kNothing;
-  }
-  double inverse_at(int x) const { return 1.0 / std::abs(depth_.at(x, y_)); }
-
-  /// Whether the point that a texel shows the image of stands at the side of the dry picture.
-  bool is_of_side(int x) const {
-    const auto point = Imaged(view_, y_).at(x, std::abs(depth_.at(x, y_)));
-    const Rect& dry = frame_.plane(PlaneId::kDepth).window;
-    const int side = step_ > 0 ? dry.x1 : dry.x0;
-    return point && std::abs(point->x - side) < kGrown;
-  }
-
-  /// The change of 1 / depth from one texel to the next, 0 where the last `count` texels have no
-  /// common plane.
-  double slope_at(int known, int count) const {
-    const int before = known - step_ * count;
-    if (!is_known(before)) return 0;
-    const double change = inverse_at(known) - inverse_at(before);
-    return std::abs(change) < kSmooth * inverse_at(known) ? change / count : 0;
-  }
-
-  /// The number of texels after `known`, of `count`, whose light is more than half and less than
-  /// twice as large as the light before them. One texel may differ: a seam.
-  int resembling(int known, int count) const {
-    double light = light_at(known);
-    int last = 0;
-    for (int i = 1; i <= count && i <= last + 2; ++i) {
-      const double here = light_at(known + step_ * i);
-      if (!(here < kLike * light && light < kLike * here)) continue;
-      light += 0.25 * (here - light);
-      last = i;
-    }
-    return last;
-  }
-  /// Of 3 x 3 texels, because renders are noisy.
-  double light_at(int x) const {
-    double sum = 1e-4;
-    for (int c = 0; c < 3; ++c) {
-      const View<const float>& plane = frame_.plane(plane_after(PlaneId::kReflectionR, c));
-      const Rect& window = plane.window;
-      for (int k = 0; k < 9; ++k) {
-        const int at_x = std::clamp(x + k % 3 - 1, window.x0, window.x1 - 1);
-        const int at_y = std::clamp(y_ + k / 3 - 1, window.y0, window.y1 - 1);
-        sum += std::max(plane.at(at_x, at_y), 0.0f);
-      }
-    }
-    return sum;
-  }
-
-  const Frame& frame_;
-  const WaterView& view_;
-  const View<float>& depth_;
-  int y_, step_;
-};
-
 }  // namespace
 
 /// Closes holes twice, from the points in `valid_` into `depth_`, and calls then(y) after row y, by
@@ -318,7 +199,7 @@ void MirrorDepth::make(const Frame& frame, const WaterView& view, Executor& exec
   each_row(executor, window, [&](int y) { std::fill_n(valid.row(y), window.width(), kNothing); });
   each_row(executor, dry.window, [&](int y) { scatter_row(view, dry, y, valid); });
   close_holes(executor, [&](int y) {
-    for (const int step : {-1, 1}) SideOfRow(frame, view, depth, y, step).go_on();
+    go_on_to_sides(frame, view, depth, y);
     finish(y);
   });
 }

@@ -205,10 +205,10 @@ struct Kernel<FresnelReflection> : MirroredLight {
         const F over = reads_planes(params, c)
                            ? max(lean_over(facets, i, part, low), max(lean, outlook.high))
                            : lean;
+        const Vec3<F> lower = bent(c, p, leaned(low)), higher = bent(c, p, leaned(over));
         // A ray below the skyline that meets nothing has passed behind a visible object, like a
         // tree's crown, and ends where the picture shows nothing. If it passes not far behind, it
         // sees that object.
-        const Vec3<F> lower = bent(c, p, leaned(low)), higher = bent(c, p, leaned(over));
         F open(1);
         steps<F>(0, reads_planes(params, c) ? 1 : 2, [&](auto k) {
           const F thicker = pick<F>(k, F(1), F(kThicker), F(kThicker));
