@@ -36,6 +36,7 @@ constexpr double kNear = 0.8;
 constexpr int kRefinements = 4;
 /// Range in pixels of the edge's influence: the height of the picture over this.
 constexpr double kFade = 24, kSettle = 24;
+constexpr double kInwards = 1;
 
 float luminance(const Rgb<float>& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
@@ -294,6 +295,7 @@ const Continuation* ContinuationMaker::make(const Frame& frame, const Pass& c) {
   // Sand and gravel show some lines by chance.
   const double clear = saturate((lines.coherence - 0.15) / 0.35), loose = 1 - 0.9 * clear;
   continuation_.fade = loose * loose * kFade / c.size.y;
+  continuation_.inwards = kInwards * (1 - clear);
   continuation_.settle = kSettle / c.size.y;
   paint_edge(frame, c, *plane);
   return &continuation_;

@@ -22,6 +22,10 @@ struct Continuation {
   /// The edge's color has the weight e^(-fade pixels), the depth of its bottom e^(-settle pixels),
   /// by the distance of the ray's end from the edge in pixels.
   double fade, settle;
+  /// Of a bottom without lines the edge's color is the mean of texels from the edge inwards, so
+  /// that grains do not become columns: over this multiple of the distance from the edge to the
+  /// ray's end. 0 of a bottom with lines.
+  double inwards;
   /// The remaining weight: colors near the edge, in the upper of two rows around the picture
   /// (op/round_edge.h). Below them, in red, the height of the bottom near that edge over the plane.
   Texture colors;
@@ -60,7 +64,7 @@ class OffFrameRay {
     const F distance = distance_to_plane(settled + share * step_at_edge(edge, settled), guess);
     const Vec2<F> end = ray_.shift_at(distance), at = along_to_edge(end);
     const F gone = length_on_screen(at - end);
-    const Texels texels = texels_at(at);
+    const Texels texels = texels_along(at, given<F>(on_.inwards) * (at - end));
     const F kept = texels.share * exp((F(0) - given<F>(on_.fade)) * gone);
     const Rgb<F> far = tap_.lat_long_rgb(on_.colors, {round_edge(at), F(on_.kColorRow)});
     return {distance, at, far + kept * (texels.color - far)};
@@ -125,6 +129,19 @@ class OffFrameRay {
     Rgb<F> color;
     F share;  ///< share of the colors that show the bottom
   };
+  /// The mean of texels from the edge to Continuation::inwards.
+  Texels texels_along(Vec2<F> edge, Vec2<F> inwards) const {
+    constexpr int kPlaces = 4;
+    Texels sum{{F(0), F(0), F(0)}, F(0)};
+    steps<F>(0, kPlaces, [&](auto i) {
+      const F way = F(kPlaces / (kPlaces - 1.0)) * Loop<F>::ratio(i, kPlaces);
+      const Texels at = texels_at(kept_in(edge + way * inwards));
+      sum.color = sum.color + at.share * at.color;
+      sum.share = sum.share + at.share;
+      return sum.share < F(9);
+    });
+    return {(F(1) / max(sum.share, F(1e-6))) * sum.color, F(1.0 / kPlaces) * sum.share};
+  }
   Texels texels_at(Vec2<F> shift) const {
     const auto quad = tap_.quad(shift);
     const Four<F> depths = tap_.read(planes_.depth, quad);

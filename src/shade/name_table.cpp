@@ -79,6 +79,7 @@ void NameTable::add_made(const Pass& pass) {
     add("continuation.offset", on->offset), add("continuation.least_drop", on->least_drop);
     add("continuation.lift", on->lift);
     add("continuation.fade", on->fade), add("continuation.settle", on->settle);
+    add("continuation.inwards", on->inwards);
   }
   if (const BottomLayer* layer = pass.bottom_layer) {
     add("bottom_layer.scale[0]", layer->scale.x), add("bottom_layer.scale[1]", layer->scale.y);

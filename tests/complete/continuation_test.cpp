@@ -73,6 +73,48 @@ TEST(Continuation, TheRowOfColorsGoesRoundThePicture) {
   EXPECT_NEAR(seen({-1, 0, 0}).color.r, 0.75 + 0.25 * 0.625, 1e-6);
 }
 
+/// A frame that shows bottom everywhere; a color is the place's square upwards.
+struct Slope : RowAlone {
+  struct Quad {
+    Vec2<double> at;
+    static double weight(int) { return 0.25; }
+  };
+  static Quad quad(Vec2<double> at) { return {at}; }
+  static Four<double> read(PlaneId plane, const Quad& quad) {
+    const double value = plane == PlaneId::kDepth ? 1e3 : quad.at.y * quad.at.y;
+    return {value, value, value, value};
+  }
+  static Vec2<double> place(PlaneId, const Quad& quad, int) { return quad.at; }
+};
+
+TEST(Continuation, AnEdgeIsTheMeanOfTexelsAsFarInwards) {
+  const Pool pool;
+  Pass pass = pool.pass();
+  Continuation on{};
+  on.least_drop = 1;
+  pass.continuation = &on;
+  const RowRays<double> rays(pass, 24.5);
+  Pixel<double> p{};
+  begin_pixel(pass, rays, 48.0, 1.0, rays.calm_depth(48.0), 1e3, p);
+  constexpr double kFalls = 0.5, kBeyond = 0.02;
+  const Vec3<double> direction{0, -1, 0};
+  const ScreenRay<double> ray(pass, p, direction);
+  const double edge = ray.shift_at(on.least_drop / kFalls).y - kBeyond;
+  ASSERT_GT(edge, kBeyond);
+  const Bounds bounds{{p.uv.x - 1, p.uv.y - 1}, {p.uv.x + 1, p.uv.y + edge}};
+  const SeenPlanes planes{PlaneId::kColorR, PlaneId::kDepth, bounds, false};
+  for (const double inwards : {0.0, 0.5, 1.0}) {
+    on.inwards = inwards;
+    const OffFrameRay<double, Slope> beyond(pass, planes, p, Slope{}, ray, direction, kFalls);
+    double expected = 0;
+    for (const double share : {0.0, 1. / 3, 2. / 3, 1.0}) {
+      const double y = edge - share * inwards * kBeyond;
+      expected += 0.25 * y * y;
+    }
+    EXPECT_NEAR(beyond.look(0).color.r, expected, 1e-9) << inwards;
+  }
+}
+
 const Continuation* made(ContinuationMaker& maker, const Pool& pool) {
   return maker.make(pool.buffers.frame, pool.pass());
 }
@@ -88,6 +130,21 @@ TEST(Continuation, FollowsTheLinesOfTheBottom) {
         glm::normalize(glm::dvec3(-std::sin(turn), -pool.rise * std::cos(turn), -std::cos(turn)));
     EXPECT_GT(std::abs(glm::dot(on->along, expected)), 0.99) << turn;
   }
+}
+
+TEST(Continuation, OnlyABottomWithoutLinesIsBlurred) {
+  Pool lines, sand;
+  lines.draw(lanes(0.3));
+  std::uint32_t state = 1;
+  sand.draw([&](double, double) {
+    state = 1664525u * state + 1013904223u;
+    return 0.4 + 0.2 * (state >> 31);
+  });
+  ContinuationMaker maker;
+  ASSERT_TRUE(made(maker, lines));
+  EXPECT_LT(made(maker, lines)->inwards, 0.1);
+  ASSERT_TRUE(made(maker, sand));
+  EXPECT_GT(made(maker, sand)->inwards, 0.8);
 }
 
 TEST(Continuation, ItsColorIsThatOfMostOfTheBottomNearTheEdge) {
