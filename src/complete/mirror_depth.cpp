@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "complete/mirror_image.h"
+#include "complete/mirror_outlines.h"
 #include "complete/mirror_sides.h"
 #include "complete/row_heights.h"
 #include "complete/rows.h"
@@ -202,6 +203,7 @@ void MirrorDepth::make(const Frame& frame, const WaterView& view, Executor& exec
     go_on_to_sides(frame, view, depth, y);
     finish(y);
   });
+  grow_to_outlines(frame, valid, depth, executor);
 }
 
 }  // namespace limpid

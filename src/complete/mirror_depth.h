@@ -18,7 +18,8 @@ namespace limpid {
 /// picture, get the greatest depth of their neighbours, and edges grow by up to two pixels. Pixels
 /// that the dry scene does not fill remain infinitely far, like the sky. But what a side of the dry
 /// picture cuts goes on to the side of the reflection, along a plane, while the reflection's colors
-/// are alike, over a quarter of its width at most.
+/// are alike, over a quarter of its width at most, and up and down to outlines of these colors
+/// (mirror_outlines.h).
 ///
 /// A renderer that clips the scene at the water shows the insides of objects that stand in it. A
 /// pixel with a dry object in front of the water counts as such an inside if no mirror image is

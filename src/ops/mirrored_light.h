@@ -267,39 +267,59 @@ struct MirroredLight : MirroredPicture {
     F lost;  ///< 1 where it is the pixel itself, for want of another place
   };
   /// Where a ray ends that meets nothing: infinitely far, should the planes show something that far
-  /// in its place. Else it is the nearest such place before it on the ray's line, or the pixel
-  /// itself. `far` is the ray's place at infinity, `seen` the depth there; `strays`: the
-  /// rays that meet nothing, and of which passes_behind() is true. What stands nearer to
-  /// the viewer than the pixel's water is certainly not mirrored there: then the places beyond it
-  /// count, too, which have a higher sky.
+  /// in its place. Else it is the nearest such place before it on the ray's line, a little apart
+  /// from the surface's outline, or the pixel itself. `far` is the ray's place at infinity, `seen`
+  /// the depth there; `strays`: the rays that meet nothing, and of which passes_behind() is true.
+  /// What stands nearer to the viewer than the pixel's water is certainly not mirrored there: then
+  /// the places beyond it count, too, which have a higher sky.
   template <class F, class Tap, class Mask>
   static Landing<F> far_landing(const Pass& c, const Pixel<F>& p, const Tap& tap,
                                 const ScreenRay<F>& ray, Vec2<F> far, F seen, const Mask& strays) {
     Vec2<F> landing = far;
     F lost(0);
     if_any(strays, [&] {
-      F open = select(strays, F(1), F(0));
-      const auto take = [&](const auto& wanted, Vec2<F> at) {
-        const auto good = wanted && tap.nearest(PlaneId::kReflectionDepth, at) > F(1e30);
-        landing = select(good, at, landing);
+      const auto place_of = [&](F share) {
+        const Vec2<F> there = share * far;
+        return min(reach_in(c.reflection, p.uv, there), F(1)) * there;
+      };
+      const auto is_free = [&](F share) {
+        return tap.nearest(PlaneId::kReflectionDepth, place_of(share)) > F(1e30);
+      };
+      // Shares of the way to `far`: of a place with a surface, and of one without beside it.
+      F surface(1), free(0), open = select(strays, F(1), F(0));
+      const auto take = [&](const auto& wanted, F toward, F away) {
+        const auto good = wanted && is_free(F(1) + toward * away);
+        free = select(good, F(1) + toward * away, free);
+        surface = select(good, F(1) + toward * (away - F(kFarthest / kPlaces)), surface);
         open = select(good, F(0), open);
       };
       steps<F>(1, kPlaces + 1, [&](auto i) {
-        const F away = F(0.9) * Loop<F>::ratio(i, kPlaces);
+        const F away = F(kFarthest) * Loop<F>::ratio(i, kPlaces);
         const auto beyond = open > F(0.5) && seen < ray.depth;
-        if_any(beyond, [&] {
-          const Vec2<F> there = (F(1) + away) * far;
-          take(beyond, min(reach_in(c.reflection, p.uv, there), F(1)) * there);
-        });
-        take(open > F(0.5), (F(1) - away) * far);
+        if_any(beyond, [&] { take(beyond, F(1), away); });
+        take(open > F(0.5), F(-1), away);
         return open > F(0.5);
       });
-      landing = select(open > F(0.5), Vec2<F>{F(0), F(0)}, landing);
+      repeat<F>(kHalvings, [&] {
+        const F middle = F(0.5) * (surface + free);
+        const auto good = is_free(middle);
+        free = select(good, middle, free);
+        surface = select(good, surface, middle);
+      });
+      // A computed depth does not end exactly where the picture's surface ends.
+      const F x = given<F>(c.size.x) * far.x, y = given<F>(c.size.y) * far.y;
+      const F pixel = F(1) / max(sqrt(x * x + y * y), F(1));
+      const F clear = free + select(free > surface, F(kWrong), F(-kWrong)) * pixel;
+      const F share = select(is_free(clear), clear, free);
+      const auto found = strays && open < F(0.5);
+      const Vec2<F> at = place_of(share);
+      landing = select(found, at, select(strays, Vec2<F>{F(0), F(0)}, far));
       lost = open;
     });
     return {landing, lost};
   }
-  static constexpr int kPlaces = 6;  ///< on each side
+  static constexpr int kPlaces = 6, kHalvings = 4;  ///< on each side, and between two places
+  static constexpr double kFarthest = 0.9;
   /// Pixels. The depth that complete/mirror_depth.h makes is two pixels wider than its objects.
   static constexpr double kWrong = 4;
   static constexpr double kLacks = 0.3;  ///< share of the planes' texels

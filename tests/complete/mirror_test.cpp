@@ -303,6 +303,29 @@ TEST(AutoMirror, MeetsARidgeOnlyWhereItsRaysPassBelowIt) {
   }
 }
 
+// A ray that passes behind an object shows the sky beside it, but not close beside it, where the
+// object's colors may end elsewhere than its depth.
+TEST(AutoMirror, ARayBehindAnObjectLandsApartFromItsOutline) {
+  constexpr int kFirst = 40, kShown = 37;
+  Mirror shore;
+  for (const PlaneId id : {PlaneId::kReflectionR, PlaneId::kReflectionG, PlaneId::kReflectionB}) {
+    shore.buffers.set(id, [](int x, int y) { return y < kShown ? 1 + 0.1f * float(x) : kInside; });
+  }
+  shore.buffers.set(PlaneId::kReflectionDepth, [](int, int y) { return y < kFirst ? kInf : 1.0f; });
+  shore.buffers.fill(PlaneId::kReflectionValid, 1).fill(PlaneId::kDepth, kInf);
+  shore.buffers.normal({0, std::cos(0.15), std::sin(0.15)});
+  for (const PlaneId id : {PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB}) {
+    shore.buffers.fill(id, kInside);
+  }
+  const test::Picture picture = shore.pictures();
+  for (int y = 30; y < kShown - 4; ++y) {
+    for (int x = 20; x < 44; ++x) {
+      ASSERT_TRUE(shore.wet(x, y)) << x << ", " << y;
+      EXPECT_NEAR(picture.color(x, y).r, 1.0 + 0.1 * x, 0.15) << x << ", " << y;
+    }
+  }
+}
+
 // A jetty right before the viewer hides the whole mirrored scene: what is seen past it is in the
 // picture, but not the jetty there, which is nearer than the water.
 TEST(AutoMirror, ShowsThePictureInTheDirectionOfWhatTheReflectionHides) {
