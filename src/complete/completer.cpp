@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "complete/sky_radiance.h"
+#include "complete/surroundings.h"
 #include "complete/water_floor.h"
 #include "ops/caustics_kernel.h"
 #include "ops/depth_fog_kernel.h"
@@ -216,7 +217,12 @@ void Completer::complete_water(const Plan& plan, PlaneSet made, bool pixels, con
   } else if (pixels && !pass.has_sky) {
     frame.sky_radiance = shown_sky_radiance(frame, pass);
   }
-  const Rgb<double> sky = frame.sky_radiance.value_or(pass.has_sky ? pass.sky : water.ambient);
+  Rgb<double> sky = frame.sky_radiance.value_or(pass.has_sky ? pass.sky : water.ambient);
+  if (pixels) {
+    const double closed = frame.edge_surfaces ? frame.edge_surfaces->closed : 0;
+    sky = surroundings(frame, pass, sky, closed);
+    frame.sky_radiance = sky;
+  }
   const WaterFloor floor =
       scattering.inside && pixels ? water_floor(frame, pass, sky) : WaterFloor{};
   const ScatteredLights& light = scattered_light_.make(scattering, floor);

@@ -111,8 +111,9 @@ std::vector<std::string> warnings_of(const CompositeJob& job, const Plate& plate
   }
   const bool own_normals = plan.look.of<WaveNormals>().model == WaveNormals::Model::kPlate;
   if (job.output.wave_samples > 1 && own_normals) {
-    warnings.push_back("wave_samples = " + std::to_string(job.output.wave_samples) +
-                       " sample no waves: the frame has normals, one per pixel");
+    warnings.push_back(
+        "wave_samples = " + std::to_string(job.output.wave_samples) +
+        " (--samples) changes nothing: the waves are the frame's normals, one per pixel");
   }
   const bool may_mirror_sky = plan.completed.covers(kSkyPlanes);
   if (job.scene.scene.sky && !plan.lit_by_sky && !may_mirror_sky) unread("[sky]");

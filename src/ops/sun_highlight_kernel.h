@@ -3,8 +3,8 @@
 
 #include "limpid/ops/sun_highlight.h"
 
-#include "op/mirror_search.h"
 #include "op/operator.h"
+#include "op/sun_search.h"
 #include "optics/highlight.h"
 
 namespace limpid {
@@ -40,7 +40,7 @@ struct Kernel<SunHighlight> : SunHighlight {
     if (params.model == Model::kSlopes && !c.planes.has(PlaneId::kSurfaceShadow)) {
       return strip.probe([&](Pixel<F>& p, const auto& tap) {
         F seen = select(p.side > F(0.5), lobe(params, c, p), F(0));
-        if_any(seen > F(0), [&] { seen = select(is_shadowed(c, p, tap), F(0), seen); });
+        if_any(seen > F(0), [&] { seen = seen * (F(1) - sun_hidden(c, p, tap, tap.wet())); });
         p.highlight = seen * light;
       });
     }
@@ -53,17 +53,6 @@ struct Kernel<SunHighlight> : SunHighlight {
   }
 
  private:
-  /// Whether a surface in the picture stands between the surface point and the sun.
-  template <class F, class Tap>
-  static auto is_shadowed(const Pass& c, const Pixel<F>& p, const Tap& tap) {
-    constexpr MirrorSteps kSteps{16, 0.06, 0.03};
-    const ScreenRay<F> ray(c, p, vec3_of<F>(c.sun.direction));
-    const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
-    return MirrorSearch<F, Tap>::march(c, tap, tap.wet(), PlaneId::kDepth, c.dry, p, ray, kSteps,
-                                       above)
-               .hit > F(0.5);
-  }
-
   template <class F>
   static LIMPID_INLINE F lobe(const Params& params, const Pass& c, const Pixel<F>& p) {
     const Vec3<F> n = p.normal, v = p.to_viewer, l = vec3_of<F>(c.sun.direction);

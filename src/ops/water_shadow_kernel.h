@@ -3,6 +3,7 @@
 
 #include "op/operator.h"
 #include "op/screen_ray.h"
+#include "op/sun_search.h"
 #include "ops/path_light.h"
 
 namespace limpid {
@@ -13,11 +14,13 @@ struct Kernel<WaterShadow> : WaterShadow {
                                   StatePart::kInScatter, StatePart::kSunScatter};
   static constexpr StateSet kMakes{StatePart::kTransmitted, StatePart::kInScatter};
   static PlaneSet reads(const Params& p) {
-    return p.model == Model::kScatter ? PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow}
-                                      : PlaneSet{PlaneId::kShadow};
+    return p.model == Model::kScatter
+               ? PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow, PlaneId::kDepth}
+               : PlaneSet{PlaneId::kShadow};
   }
   static Needs needs(const Params& p) {
-    return {.planes = wants_shafts(p) ? PlaneSet{} : PlaneSet{PlaneId::kShadow}};
+    const bool scatters = p.model == Model::kScatter;
+    return {.planes = scatters ? PlaneSet{} : PlaneSet{PlaneId::kShadow}, .sun = scatters};
   }
   static bool wants_shafts(const Params& p) { return p.model == Model::kScatter && p.shafts > 0; }
   /// Beyond the reach of refraction: sunlight may enter anywhere.
@@ -38,8 +41,10 @@ struct Kernel<WaterShadow> : WaterShadow {
 
   static constexpr CellKind kSkipped{"lit", "no shadow falls on the water"};
   static double ns(const Params& p, const Running& running) {
-    const bool entries = p.model == Model::kScatter && running.planes.has(PlaneId::kSurfaceShadow);
-    return (p.model == Model::kDarken ? 1.2 : wants_shafts(p) ? 26 : 1.6) + (entries ? 20 : 0);
+    if (p.model == Model::kDarken) return 1.2;
+    const bool entries = running.planes.has(PlaneId::kSurfaceShadow);
+    const double looks = entries ? 21.6 : running.planes.has(PlaneId::kShadow) ? 1.6 : 25;
+    return looks + (wants_shafts(p) ? 24.4 : 0);
   }
 
   template <class Strip>
@@ -67,7 +72,13 @@ struct Kernel<WaterShadow> : WaterShadow {
       return;
     }
     if (focused) add_shafts(params, c, strip);
-    if (!c.planes.has(PlaneId::kShadow)) return;
+    if (!c.planes.has(PlaneId::kShadow)) {
+      return strip.probe([&](Pixel<F>& p, const auto& tap) {
+        const Rgb<F> light = p.sun_near + p.sun_far + p.sun_multiple;
+        const auto sunlit = tap.wet() && p.side > F(0.5) && light.r + light.g + light.b > F(0);
+        if_any(sunlit, [&] { take(p, sun_hidden(c, p, tap, sunlit), light); });
+      });
+    }
     strip.own(PlaneId::kShadow, [&](Pixel<F>& p, F shadow) { take(p, F(1) - shadow, p.sun_near); });
     strip.bilinear(PlaneId::kShadow, where, [&](Pixel<F>& p, F shadow) {
       take(p, F(1) - shadow, p.sun_far + p.sun_multiple);

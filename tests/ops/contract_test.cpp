@@ -255,6 +255,9 @@ TEST(Contract, OnlyDeclaredPlanesAreTapped) {
         tapped = tapped | without.tapped;
         EXPECT_TRUE(Op::reads(params).covers(without.tapped)) << what;
       }
+      const PlaneSet spare =
+          Op::reads(params) - Op::needs(params).planes - kColorPlanes - PlaneSet{PlaneId::kDepth};
+      tapped = tapped | probed<Op>(params, everything(), everything(), spare).tapped;
       const ProbeStrip bare =
           probed<Op>(params, everything(), everything(), kReflectionPlanes, false);
       if (!Op::needs(params).environment && !Op::needs(params).planes.meets(kReflectionPlanes)) {

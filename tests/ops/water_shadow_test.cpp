@@ -136,6 +136,13 @@ TEST(WaterShadow, ScatterKnowsTheSurfaceFromTheBottom) {
   EXPECT_NEAR(in_scatter(tray, 7), kPart + 0.625 * kPart, 1e-6);
 }
 
+TEST(WaterShadow, ASurfaceShadowAloneIsEnough) {
+  Tray tray = half_shaded_murk();
+  tray.buffers.frame.planes[index_of(PlaneId::kShadow)] = {};
+  tray.buffers.fill(PlaneId::kSurfaceShadow, 0.25f);
+  for (const int x : {2, 7}) EXPECT_NEAR(in_scatter(tray, x), kPart + 0.25 * kPart, 1e-6);
+}
+
 // The sun 45 degrees over the right: light that is scattered d deep enters d to the right. Shaded
 // to the left of column 5; the path is 4 long, and water that scatters little sends as much light
 // from each quarter of the path; the quarters' middles lie 0.5, 1.5, 2.5 and 3.5 deep.

@@ -23,7 +23,9 @@ namespace limpid {
 /// light, on the line in the calm surface from the pixel to the entry point for the path's end.
 /// v_near and v_far are means of these, weighted by their distances from the line's two ends;
 /// v_multiple is the mean of four points, one mean free path around the middle one. Else v_near is
-/// the shadow at the pixel itself, and v_far and v_multiple that at uv'.
+/// the shadow at the pixel itself, and v_far and v_multiple that at uv'. Without either plane a
+/// search in the depth plane, from the pixel towards the sun, tells whether an object in the
+/// picture hides the sun: v is 0 or 1.
 ///
 /// `shafts`, for `scatter` and views from the air: waves focus sunlight within the water, too,
 /// which makes its single-scattered light uneven: in_scatter += shafts (e_near sun_near + e_far
