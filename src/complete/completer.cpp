@@ -143,6 +143,9 @@ std::vector<std::string> Completer::made_of_pixels(const Plan& plan, bool has_sk
       Kernel<DepthFog>::wants_scattered_light(plan.look.of<DepthFog>())) {
     phrases.emplace_back("the light of the visible sky in the water, without [sky] radiance");
   }
+  if (plan.keeps<DepthFog>() && Kernel<DepthFog>::wants_scattered_light(plan.look.of<DepthFog>())) {
+    phrases.emplace_back("the light of the surroundings in the water");
+  }
   if (!plan.made.has(StatePart::kPosition)) return phrases;
   if (plan.look.of<Refraction>().continues_bottom()) {
     phrases.emplace_back("the bottom beyond the picture (refraction.off_frame)");
@@ -219,9 +222,11 @@ void Completer::complete_water(const Plan& plan, PlaneSet made, bool pixels, con
   }
   Rgb<double> sky = frame.sky_radiance.value_or(pass.has_sky ? pass.sky : water.ambient);
   if (pixels) {
-    const double closed = frame.edge_surfaces ? frame.edge_surfaces->closed : 0;
+    const double closed = closed_share(frame, pass);
+    const bool known = frame.sky_radiance || pass.has_sky;
     sky = surroundings(frame, pass, sky, closed);
-    frame.sky_radiance = sky;
+    // In a room the surfaces tell of the light as well as a sky does.
+    if (known || closed > 0) frame.sky_radiance = sky;
   }
   const WaterFloor floor =
       scattering.inside && pixels ? water_floor(frame, pass, sky) : WaterFloor{};

@@ -32,7 +32,8 @@ namespace limpid {
 /// the parts of pixels that objects in front of the water cover; the layer below the water,
 /// extended as far as color and depth; the surfaces at the edge of the picture, for mirrored rays
 /// that leave it; the continuation of the bottom for rays that leave the picture; the bottom behind
-/// objects, for rays that end there; multiple scattering; the table of caustics, and caustics in
+/// objects, for rays that end there; multiple scattering, and the light of the
+/// surroundings for it; the table of caustics, and caustics in
 /// the reflection. Each only if the plan needs it. Runs once per frame, before its pixels;
 /// operators read the results like the plate's planes. The result does not depend on the number of
 /// threads. Keeps its memory from frame to frame.

@@ -36,6 +36,7 @@ constexpr double kNear = 0.8;
 constexpr int kRefinements = 4;
 /// Range in pixels of the edge's influence: the height of the picture over this.
 constexpr double kFade = 24, kSettle = 24;
+/// Continuation::inwards of a bottom without lines.
 constexpr double kInwards = 1;
 
 float luminance(const Rgb<float>& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }

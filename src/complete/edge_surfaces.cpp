@@ -105,7 +105,7 @@ float median_light(const Frame& frame, const Pass& pass, const EdgeTexels& texel
   return *middle;
 }
 
-/// EdgeSurfaces::closed. A surface that looks down rises less than half as much towards the edge as
+/// A surface that looks down rises less than half as much towards the edge as
 /// an upright one does.
 double closed_at_top(const View<const float>& depth, const Rect& window, const Pass& pass) {
   constexpr int kRows = 32;  // of so many parts of the picture's height
@@ -127,6 +127,11 @@ double closed_at_top(const View<const float>& depth, const Rect& window, const P
 }
 
 }  // namespace
+
+double closed_share(const Frame& frame, const Pass& pass) {
+  const View<const float>& depth = frame.plane(PlaneId::kDepth);
+  return depth ? closed_at_top(depth, depth.window, pass) : 0;
+}
 
 const EdgeSurfaces* EdgeSurfacesMaker::make(const Frame& frame, const Pass& pass,
                                             Executor& executor) {

@@ -11,6 +11,9 @@
 
 namespace limpid {
 
+/// EdgeSurfaces::closed of a frame, 0 ... 1, by the upper edge of its depth.
+double closed_share(const Frame& frame, const Pass& pass);
+
 /// Makes the surfaces at the picture's edge. Reads the outermost texels of color and depth.
 class EdgeSurfacesMaker {
  public:

@@ -38,6 +38,7 @@ class Columns {
 
   /// Grows the known texel at the row y by steps of 1 or -1; the last row grown.
   int grown(int x, int y, int step) const {
+    if (!(valid_.at(x, y) >= 0.5f)) return y;
     const int beyond = y + step * most_;
     if (beyond < depth_.window.y0 || beyond >= depth_.window.y1 || is_known(x, beyond)) return y;
     const float difference = differ(x, y, beyond);

@@ -23,8 +23,8 @@ constexpr int kAround = 32, kBands = 8;
 constexpr double kUnseen = 0.5, kCut = 0.5;
 
 struct Surface {
-  glm::dvec2 at;  ///< along WaterView::map_x and map_y
-  double height;
+  glm::dvec2 at;         ///< along WaterView::map_x and map_y
+  double height, width;  ///< width of the sample across the view
   Rgb<double> color;
   bool cut;  ///< at the upper edge of the picture
 };
@@ -35,9 +35,37 @@ struct Band {
   bool met() const { return high >= low; }
 };
 
+/// The surfaces in one direction.
+struct Sector {
+  std::array<Band, kBands> bands{};
+  Rgb<double> light{0, 0, 0};
+  double count = 0, cut = 0;               ///< cut: the highest squared sine of a cut surface
+  double first = 1, last = 0, widths = 0;  ///< in shares of the sector
+  bool horizon = false, water = false;     ///< whether the picture shows them there
+
+  /// The share of the directions of the sector that its surfaces fill.
+  double filled() const {
+    return count > 0 ? std::clamp(last - first + widths / count, 0.0, 1.0) : 0;
+  }
+  /// The share of the light of these directions that they hide: they go on to the next band if this
+  /// shows surfaces, too, and the lowest band goes on to the water.
+  double hidden(double closed) const {
+    double sum = 0;
+    for (std::size_t b = 0; b < kBands; ++b) {
+      if (!bands[b].met()) continue;
+      const bool under = b == 0 || bands[b - 1].met(), over = b + 1 < kBands && bands[b + 1].met();
+      const double low = under ? static_cast<double>(b) / kBands : bands[b].low;
+      const double high = over ? static_cast<double>(b + 1) / kBands : bands[b].high;
+      sum += high - low;
+    }
+    sum = std::clamp(sum, 0.0, 1.0);
+    return cut > 0 ? sum + (kCut + (1 - kCut) * closed) * std::min(1 - sum, 1 - cut) : sum;
+  }
+};
+
 /// The light around one place on the water, as shares of all directions.
 struct Cover {
-  double hidden = 0;           ///< of the sky
+  double hidden = 0;           ///< of the sky, at most 1
   Rgb<double> light{0, 0, 0};  ///< of the surfaces that hide it, times that share
 };
 
@@ -46,7 +74,6 @@ class Picture {
   Picture(const Frame& frame, const Pass& c)
       : c_(c), depth_(frame.plane(PlaneId::kDepth)), surface_(frame.plane(PlaneId::kSurfaceDepth)) {
     window_ = intersection(frame.work(), depth_.window);
-    if (surface_) window_ = intersection(window_, surface_.window);
     for (int i = 0; i < 3; ++i) {
       color_[i] = frame.plane(plane_after(PlaneId::kColorR, i));
       window_ = intersection(window_, color_[i].window);
@@ -80,13 +107,16 @@ class Picture {
     };
     each(kColumns, kRows, [&](const RowHeights& heights, int x, int y, int j) {
       const double depth = depth_.at(x, y);
-      const double height = depth < 1e30 ? heights.at(x, depth) : 0;
+      const double height = depth > 0 && depth < 1e30 ? heights.at(x, depth) : 0;
       if (!(height > 0) || water_at(heights, x, y) < depth) return;
       const auto light = [&](int i) {
         const double value = color_[i].at(x, y);
         return value > 0 && value < 1e30 ? value : 0;
       };
-      surfaces_.push_back({level_at(x, y, depth), height, {light(0), light(1), light(2)}, j == 0});
+      const double pixels = static_cast<double>(window_.width()) / kColumns;
+      const double width = pixels * glm::length(c_.rays.origin_dx + depth * c_.rays.ray_dx);
+      surfaces_.push_back(
+          {level_at(x, y, depth), height, width, {light(0), light(1), light(2)}, j == 0});
     });
     each(kPlaceColumns, kPlaceRows, [&](const RowHeights& heights, int x, int y, int) {
       const double water = water_at(heights, x, y);
@@ -95,7 +125,8 @@ class Picture {
   }
   /// Eye depth of the water, +inf where there is none.
   double water_at(const RowHeights& heights, int x, int y) const {
-    const double water = surface_ ? surface_.at(x, y) : heights.depth_at(x, 0);
+    const bool known = surface_ && surface_.window.contains({x, y, x + 1, y + 1});
+    const double water = known ? surface_.at(x, y) : heights.depth_at(x, 0);
     return water > 0 ? water : HUGE_VAL;
   }
   glm::dvec2 level_at(int x, int y, double depth) const {
@@ -116,60 +147,49 @@ class Picture {
     return w > 0 && within(c_.to_u) && within(c_.to_v);
   }
 
+  /// A direction in sectors: 0 ... kAround.
+  static double turn_to(const glm::dvec2& off) {
+    const double turn = std::atan2(off.y, off.x) / (2 * std::numbers::pi);
+    return std::clamp((turn - std::floor(turn)) * kAround, 0.0, kAround * (1 - 1e-9));
+  }
+
   Cover cover_at(const glm::dvec2& place, double closed) const {
-    std::array<std::array<Band, kBands>, kAround> bands{};
-    std::array<Rgb<double>, kAround> light{};
-    std::array<double, kAround> count{}, cut{};
+    std::array<Sector, kAround> sectors{};
+    for (std::size_t i = 0; i < kAround; ++i) sectors[i].horizon = shows_[i];
+    for (const glm::dvec2& other : places_) {
+      sectors[static_cast<std::size_t>(turn_to(other - place))].water = true;
+    }
     for (const Surface& s : surfaces_) {
       const glm::dvec2 off = s.at - place;
       const double level = glm::dot(off, off), square = s.height * s.height;
       if (!(level > 0)) continue;
-      const double sine = square / (square + level);
-      const double turn = std::atan2(off.y, off.x) / (2 * std::numbers::pi);
-      const auto direction = static_cast<std::size_t>(
-          std::clamp(static_cast<int>((turn - std::floor(turn)) * kAround), 0, kAround - 1));
-      Band& band =
-          bands[direction]
-               [static_cast<std::size_t>(std::min(static_cast<int>(sine * kBands), kBands - 1))];
+      const double sine = square / (square + level), turn = turn_to(off);
+      Sector& sector = sectors[static_cast<std::size_t>(turn)];
+      Band& band = sector.bands[static_cast<std::size_t>(std::min(int(sine * kBands), kBands - 1))];
       band.low = std::min(band.low, sine), band.high = std::max(band.high, sine);
-      light[direction] = light[direction] + s.color;
-      count[direction] += 1;
-      if (s.cut) cut[direction] = std::max(cut[direction], sine);
+      const double at = turn - std::floor(turn);
+      sector.first = std::min(sector.first, at), sector.last = std::max(sector.last, at);
+      sector.widths += s.width / std::sqrt(level) * (kAround / (2 * std::numbers::pi));
+      sector.light = sector.light + s.color;
+      sector.count += 1;
+      if (s.cut) sector.cut = std::max(sector.cut, sine);
     }
-    Cover known, sum;
-    double shown = 0;
-    for (std::size_t i = 0; i < kAround; ++i) {
-      if (!(count[i] > 0 || shows_[i])) continue;
-      shown += 1;
-      double hidden = hidden_of(bands[i]);
-      if (cut[i] > 0) hidden += (kCut + (1 - kCut) * closed) * (1 - cut[i]);
+    Cover known;
+    double shown = 0, open = 0;  // sectors with a surface, the horizon or water; with water alone
+    for (const Sector& sector : sectors) {
+      const bool known_end = sector.count > 0 || sector.horizon;
+      shown += known_end || sector.water, open += !known_end && sector.water;
+      if (!(sector.count > 0)) continue;
+      const double hidden = sector.filled() * sector.hidden(closed);
       known.hidden += hidden;
-      if (count[i] > 0) known.light = known.light + (hidden / count[i]) * light[i];
+      known.light = known.light + (hidden / sector.count) * sector.light;
     }
-    if (!(shown > 0)) return {};
-    const double per_direction = 1.0 / kAround;
-    sum.hidden = per_direction * known.hidden, sum.light = per_direction * known.light;
-    if (!(known.hidden > 0)) return sum;
+    if (!(known.hidden > 0)) return {};
     // Elsewhere the surroundings are as bright.
-    const double mean = known.hidden / shown, unseen = per_direction * (kAround - shown);
-    const double more = unseen * (kUnseen * mean + closed * (1 - kUnseen * mean));
-    sum.light = sum.light + (more / known.hidden) * known.light;
-    sum.hidden += more;
-    return sum;
-  }
-
-  /// The share of a direction's light that its surfaces hide: they go on to the next band if this
-  /// shows surfaces, too, and the lowest band goes on to the water.
-  static double hidden_of(const std::array<Band, kBands>& bands) {
-    double hidden = 0;
-    for (std::size_t b = 0; b < kBands; ++b) {
-      if (!bands[b].met()) continue;
-      const bool under = b == 0 || bands[b - 1].met(), over = b + 1 < kBands && bands[b + 1].met();
-      const double low = under ? static_cast<double>(b) / kBands : bands[b].low;
-      const double high = over ? static_cast<double>(b + 1) / kBands : bands[b].high;
-      hidden += high - low;
-    }
-    return hidden;
+    const double usual = kUnseen * known.hidden / shown;
+    const double unseen = (kAround - shown) * (usual + closed * (1 - usual)) + open * closed;
+    const double all = std::min((known.hidden + unseen) / kAround, 1.0);
+    return {all, (all / known.hidden) * known.light};
   }
 
   const Pass& c_;

@@ -11,11 +11,12 @@ namespace limpid {
 /// of the picture. Reads color and depth, on a grid.
 ///
 /// An object hides the sky from the water's level up to its top, a crown or a cable only itself.
-/// Surfaces that the upper edge of the picture cuts go on to half of the rest, and where the
-/// picture shows nothing, as behind the viewer, the surroundings are half as high as elsewhere.
-/// With `closed`, 0 ... 1, of a room (EdgeSurfaces::closed) both go on to the ceiling. `sky` itself
-/// for views from below the water, or without water in the picture. Colors that are negative, NaN or
-/// inf count as black.
+/// Surfaces that the upper edge of the picture cuts go on to half of the rest. In directions in
+/// which the picture shows neither surfaces nor water nor horizon, as behind the viewer, half as
+/// much is hidden as elsewhere. With `closed`, 0 ... 1, of a room (EdgeSurfaces::closed) surfaces
+/// go on to the ceiling, and hide all that the picture does not show. `sky` itself for views from
+/// below the water, or without water in the picture. Depths of 0 and below count as no surface.
+/// Colors that are negative, NaN or inf count as black.
 Rgb<double> surroundings(const Frame& frame, const Pass& pass, const Rgb<double>& sky,
                          double closed);
 

@@ -129,16 +129,15 @@ class OffFrameRay {
     Rgb<F> color;
     F share;  ///< share of the colors that show the bottom
   };
-  /// The mean of texels from the edge to Continuation::inwards.
+  /// The mean of four places from the edge to Continuation::inwards.
   Texels texels_along(Vec2<F> edge, Vec2<F> inwards) const {
     constexpr int kPlaces = 4;
     Texels sum{{F(0), F(0), F(0)}, F(0)};
-    steps<F>(0, kPlaces, [&](auto i) {
+    each<F>(kPlaces, [&](auto i) {
       const F way = F(kPlaces / (kPlaces - 1.0)) * Loop<F>::ratio(i, kPlaces);
       const Texels at = texels_at(kept_in(edge + way * inwards));
       sum.color = sum.color + at.share * at.color;
       sum.share = sum.share + at.share;
-      return sum.share < F(9);
     });
     return {(F(1) / max(sum.share, F(1e-6))) * sum.color, F(1.0 / kPlaces) * sum.share};
   }

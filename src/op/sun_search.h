@@ -10,9 +10,9 @@
 namespace limpid {
 
 /// How much surfaces hide the sun from the surface point: 1 if one in the picture stands between
-/// them, 0 for lanes other than `lanes`. A surface at the edge where the ray to the sun leaves the
-/// picture goes on beyond it: wholly as high as the picture shows it, and less and less up to three
-/// times as high.
+/// them, 0 for lanes other than `lanes`. If the ray to the sun leaves the picture, and not towards
+/// the viewer, the surface at that edge goes on beyond it: wholly as high as the picture shows it,
+/// and less and less up to three times as high.
 template <class F, class Tap, class Mask>
 F sun_hidden(const Pass& c, const Pixel<F>& p, const Tap& tap, const Mask& lanes) {
   constexpr MirrorSteps kSteps{24, 0.2, 0.2, true};
@@ -23,10 +23,10 @@ F sun_hidden(const Pass& c, const Pixel<F>& p, const Tap& tap, const Mask& lanes
   const F hit =
       MirrorSearch<F, Tap>::march(c, tap, lanes, PlaneId::kDepth, c.dry, p, ray, kSteps, above).hit;
   F hidden = select(lanes, hit, F(0));
-  const auto leaves = lanes && hit < F(0.5) && ray.depth_step > F(0);
+  const F end = ray.s_at(reach_ahead(c, c.dry, p.uv, ray.across));
+  const auto leaves = lanes && hit < F(0.5) && ray.depth_step > F(0) && end < F(1e20);
   if_any(leaves, [&] {
-    const F end = min(ray.s_at(reach_ahead(c, c.dry, p.uv, ray.across)), F(1e30));
-    const Vec2<F> edge = ray.shift_at(end);
+    const Vec2<F> edge = ray.shift_at(select(leaves, end, F(1)));
     const F seen = tap.nearest(PlaneId::kDepth, edge);
     const F height = height_at(c, p, edge, seen);
     const F meets = (seen - ray.depth) / max(ray.depth_step, F(1e-30));

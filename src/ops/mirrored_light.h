@@ -309,7 +309,7 @@ struct MirroredLight : MirroredPicture {
       // A computed depth does not end exactly where the picture's surface ends.
       const F x = given<F>(c.size.x) * far.x, y = given<F>(c.size.y) * far.y;
       const F pixel = F(1) / max(sqrt(x * x + y * y), F(1));
-      const F clear = free + select(free > surface, F(kWrong), F(-kWrong)) * pixel;
+      const F clear = max(free + select(free > surface, F(kWrong), F(-kWrong)) * pixel, F(0));
       const F share = select(is_free(clear), clear, free);
       const auto found = strays && open < F(0.5);
       const Vec2<F> at = place_of(share);

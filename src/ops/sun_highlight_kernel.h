@@ -25,7 +25,7 @@ struct Kernel<SunHighlight> : SunHighlight {
 
   static constexpr bool kLooksAbove = true;
   static double ns(const Params& p, const Running&) {
-    return p.model == Model::kGgx ? 2.5 : p.model == Model::kSlopes ? 4 : 2;
+    return p.model == Model::kGgx ? 2.5 : p.model == Model::kSlopes ? 5 : 2;
   }
 
   template <class Strip>

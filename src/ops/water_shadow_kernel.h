@@ -14,9 +14,9 @@ struct Kernel<WaterShadow> : WaterShadow {
                                   StatePart::kInScatter, StatePart::kSunScatter};
   static constexpr StateSet kMakes{StatePart::kTransmitted, StatePart::kInScatter};
   static PlaneSet reads(const Params& p) {
-    return p.model == Model::kScatter
-               ? PlaneSet{PlaneId::kShadow, PlaneId::kSurfaceShadow, PlaneId::kDepth}
-               : PlaneSet{PlaneId::kShadow};
+    if (p.model == Model::kDarken) return {PlaneId::kShadow};
+    const PlaneSet shadows{PlaneId::kShadow, PlaneId::kSurfaceShadow};
+    return p.strength > 0 ? shadows | PlaneSet{PlaneId::kDepth} : shadows;
   }
   static Needs needs(const Params& p) {
     const bool scatters = p.model == Model::kScatter;
@@ -43,7 +43,8 @@ struct Kernel<WaterShadow> : WaterShadow {
   static double ns(const Params& p, const Running& running) {
     if (p.model == Model::kDarken) return 1.2;
     const bool entries = running.planes.has(PlaneId::kSurfaceShadow);
-    const double looks = entries ? 21.6 : running.planes.has(PlaneId::kShadow) ? 1.6 : 25;
+    const double search = p.strength > 0 ? 25 : 0;
+    const double looks = entries ? 21.6 : running.planes.has(PlaneId::kShadow) ? 1.6 : search;
     return looks + (wants_shafts(p) ? 24.4 : 0);
   }
 
@@ -71,14 +72,19 @@ struct Kernel<WaterShadow> : WaterShadow {
       if (focused) add_shafts(params, c, strip);
       return;
     }
-    if (focused) add_shafts(params, c, strip);
     if (!c.planes.has(PlaneId::kShadow)) {
       return strip.probe([&](Pixel<F>& p, const auto& tap) {
         const Rgb<F> light = p.sun_near + p.sun_far + p.sun_multiple;
         const auto sunlit = tap.wet() && p.side > F(0.5) && light.r + light.g + light.b > F(0);
-        if_any(sunlit, [&] { take(p, sun_hidden(c, p, tap, sunlit), light); });
+        F hidden(0);
+        if (params.strength > 0) {
+          if_any(sunlit, [&] { hidden = sun_hidden(c, p, tap, sunlit); });
+          take(p, hidden, light);
+        }
+        if (focused) add_shafts(params, c, p, tap, F(1) - strength * hidden);
       });
     }
+    if (focused) add_shafts(params, c, strip);
     strip.own(PlaneId::kShadow, [&](Pixel<F>& p, F shadow) { take(p, F(1) - shadow, p.sun_near); });
     strip.bilinear(PlaneId::kShadow, where, [&](Pixel<F>& p, F shadow) {
       take(p, F(1) - shadow, p.sun_far + p.sun_multiple);
@@ -92,12 +98,15 @@ struct Kernel<WaterShadow> : WaterShadow {
   template <class Strip>
   static void add_shafts(const Params& params, const Pass& c, Strip& strip) {
     using F = typename Strip::Number;
-    const F strength = given<F>(params.strength), shafts = given<F>(params.shafts);
-    strip.probe([&](Pixel<F>& p, const auto& tap) {
-      const PathLight<F> more = path_light(c, p, tap, strength);
-      const Rgb<F> all = p.in_scatter + shafts * (more.near * p.sun_near + more.far * p.sun_far);
-      p.in_scatter = {max(all.r, F(0)), max(all.g, F(0)), max(all.b, F(0))};
-    });
+    strip.probe([&](Pixel<F>& p, const auto& tap) { add_shafts(params, c, p, tap, F(1)); });
+  }
+  /// `lit`: the share of the sun that reaches the pixel's water, besides that of the planes.
+  template <class F, class Tap>
+  static void add_shafts(const Params& params, const Pass& c, Pixel<F>& p, const Tap& tap, F lit) {
+    const PathLight<F> more = path_light(c, p, tap, given<F>(params.strength));
+    const F shafts = lit * given<F>(params.shafts);
+    const Rgb<F> all = p.in_scatter + shafts * (more.near * p.sun_near + more.far * p.sun_far);
+    p.in_scatter = {max(all.r, F(0)), max(all.g, F(0)), max(all.b, F(0))};
   }
 
   template <class F, class Tap, class Take>

@@ -75,8 +75,9 @@ TEST(MirrorOutlines, AreNotGuessed) {
 TEST(MirrorOutlines, AreNotThoseOfInsidesAndNan) {
   Reflection reflection(
       [](int x, int y) { return x == 5 && y == 118 ? std::nanf("") : dark_rows(117, 152)(x, y); });
-  reflection.valid.view().at(4, 118) = 0;
+  reflection.valid.view().at(4, 118) = reflection.valid.view().at(6, 120) = 0;
   reflection.grow();
+  reflection.expect(6, 120, 152);
   reflection.expect(4, 119, 152);
   reflection.expect(5, 119, 152);
 }

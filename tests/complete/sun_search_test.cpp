@@ -64,6 +64,24 @@ TEST(SunSearch, ThePlatesShadowsCountMore) {
   EXPECT_NEAR(wall.shade(8), 0, 1e-6);
 }
 
+/// The sun is in the picture, and a post between it and the viewer shades only the water before it.
+TEST(SunSearch, APostBeforeTheVisibleSunShadesNoOtherWater) {
+  Shaded sea(0, 8);
+  const auto before_post = [](int x) { return std::abs(x - Shore::kSize.width / 2) <= 1; };
+  sea.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    return before_post(x) && y < Shore::kSize.height / 2 + 2 ? 15.0f : sea.dry_depth(x, y);
+  });
+  Look without = sea.look;
+  without.of<WaterShadow>().strength = 0;
+  const test::Picture got = test::reference(sea.look, sea.buffers.frame, sea.scene);
+  const test::Picture lit = test::reference(without, sea.buffers.frame, sea.scene);
+  for (int y = Shore::kSize.height / 2 + 6; y < Shore::kSize.height; y += 4) {
+    for (const int x : {4, 20, 44, 60}) {
+      EXPECT_EQ(got.aov(Aov::kInScatter, x, y), lit.aov(Aov::kInScatter, x, y)) << x << ", " << y;
+    }
+  }
+}
+
 // The picture shows 13 m of the wall.
 TEST(SunSearch, AWallThatThePictureCutsMayBeThreeTimesAsHigh) {
   EXPECT_NEAR(Shaded(1e3, 70).shade(3), 1, 1e-6);  // hidden up to 8 m

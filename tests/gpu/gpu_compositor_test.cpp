@@ -277,6 +277,7 @@ TEST_F(GpuHostTest, SaysWhatItWouldLeaveOut) {
     const GpuFrame lit = host->draw(land.frame(), scene);
     host->commands.run([&](VkCommandBuffer c) { lax.record(c, lit, picture); });
     const std::string left = join(lax.left_out());
+    EXPECT_NE(left.find("the light of the surroundings in the water"), std::string::npos);
     return left.find("the light of the visible sky") != std::string::npos;
   };
   EXPECT_TRUE(leaves_sky({}));

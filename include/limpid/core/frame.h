@@ -172,8 +172,10 @@ struct Frame {
   Sym2<double> wave_variance{0, 0, 0};
   /// Multiple scattering in the water, for red, green and blue; null, or made by complete/.
   const ScatteredLight* scattered_light = nullptr;
-  /// The mean radiance above the horizon of the environment, or of the sky that the frame shows,
-  /// weighted by the cosine with the water's up; absent if no operator needs it.
+  /// The mean radiance above the horizon, weighted by the cosine with the water's up: of the
+  /// environment, of Scene::sky or of the sky that the frame shows, with the surfaces around that
+  /// hide a part of it (complete/surroundings.h); absent if no operator needs it. Of a host, that
+  /// of the sky alone, in place of Scene::sky.
   std::optional<Rgb<double>> sky_radiance;
   /// How the planes of the sky go on beyond their edge; none, or made by complete/.
   SkyChange sky_change;

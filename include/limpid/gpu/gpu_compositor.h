@@ -79,9 +79,9 @@ struct GpuCompositorOptions {
 /// A shader reads the host's images and writes the picture; the numbers of the frame, its rows, a
 /// surface displaced by waves, and textures are uploaded from the compositor's memory. Completers
 /// that need pixels (mixed edges, the bottom behind objects and beyond the picture, mirrored
-/// surfaces beyond the picture, reflection depths, albedo, caustics, the light of the visible sky)
-/// do not run: the pixels are not in CPU memory. With the same planes the water equals that of
-/// GpuRunner, to the bit.
+/// surfaces beyond the picture, reflection depths, albedo, caustics, the light of the visible sky
+/// and of the surroundings in the water) do not run: the pixels are not in CPU memory. With the
+/// same planes the water equals that of GpuRunner, to the bit.
 class GpuCompositor {
  public:
   /// Throws Error for a device that does not meet the requirements of GpuRunner, and for options

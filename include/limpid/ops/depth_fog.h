@@ -59,7 +59,8 @@ namespace limpid {
 /// the point's own albedo, by its color and light in the dry picture; the rest is that of the
 /// bottom around. What of the former came by sky and surface is added to `transmitted`. With
 /// `crossing` radiance the surface reflects from below by Fresnel's equations. The sky's radiance
-/// is that of the environment, else the scene's, else the visible sky's, else `ambient`. Views from
+/// is that of the environment, else the scene's, else the visible sky's, else `ambient`; surfaces
+/// that the picture shows hide a part of it and send their own light. Views from
 /// under water have the light of water over one level floor, as deep and bright as the visible
 /// bottom in the mean, and a bottom that is lit as that of the level layer: with a shadow each
 /// point by its own albedo, in its mirror image, too. Its unscattered light is all in

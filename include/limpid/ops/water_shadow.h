@@ -25,7 +25,8 @@ namespace limpid {
 /// v_multiple is the mean of four points, one mean free path around the middle one. Else v_near is
 /// the shadow at the pixel itself, and v_far and v_multiple that at uv'. Without either plane a
 /// search in the depth plane, from the pixel towards the sun, tells whether an object in the
-/// picture hides the sun: v is 0 or 1.
+/// picture hides the sun, for views from the air: v is 0 or 1, and in between where an object that
+/// the picture's edge cuts may hide it.
 ///
 /// `shafts`, for `scatter` and views from the air: waves focus sunlight within the water, too,
 /// which makes its single-scattered light uneven: in_scatter += shafts (e_near sun_near + e_far
