@@ -224,7 +224,7 @@ void Completer::complete_water(const Plan& plan, PlaneSet made, bool pixels, con
   if (pixels) {
     const double closed = closed_share(frame, pass);
     const bool known = frame.sky_radiance || pass.has_sky;
-    sky = surroundings(frame, pass, sky, closed);
+    sky = surroundings(frame, pass, sky, closed, executor);
     // In a room the surfaces tell of the light as well as a sky does.
     if (known || closed > 0) frame.sky_radiance = sky;
   }

@@ -1,6 +1,7 @@
 #include "complete/mirror_outlines.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace limpid {
@@ -16,18 +17,25 @@ class Columns {
     }
   }
 
-  void grow(int x) const {
+  /// Grows the columns from `begin` to before `end`, at most kStrip, row by row.
+  void grow(int begin, int end) const {
     const Rect& window = depth_.window;
+    std::array<int, kStrip> grown_to;
+    grown_to.fill(window.y0 - 1);
     for (int y = window.y0; y + 1 < window.y1; ++y) {
-      const bool here = is_known(x, y);
-      if (here == is_known(x, y + 1)) continue;
-      if (here) {
-        y = grown(x, y, 1);
-      } else {
-        grown(x, y + 1, -1);
+      for (int x = begin; x < end; ++x) {
+        int& last = grown_to[static_cast<std::size_t>(x - begin)];
+        const bool here = is_known(x, y);
+        if (here == is_known(x, y + 1) || y <= last) continue;
+        if (here) {
+          last = grown(x, y, 1);
+        } else {
+          grown(x, y + 1, -1);
+        }
       }
     }
   }
+  static constexpr int kStrip = 32;
 
  private:
   /// The picture's height over the greatest growth.
@@ -73,12 +81,12 @@ class Columns {
 
 void grow_to_outlines(const Frame& frame, const View<const float>& valid, const View<float>& depth,
                       Executor& executor) {
-  constexpr int kStrip = 32;
+  constexpr int kStrip = Columns::kStrip;
   const Rect& window = depth.window;
   const Columns columns(frame, valid, depth);
   run_each(executor, (window.width() + kStrip - 1) / kStrip, [&](int index) {
     const int begin = window.x0 + index * kStrip;
-    for (int x = begin; x < std::min(begin + kStrip, window.x1); ++x) columns.grow(x);
+    columns.grow(begin, std::min(begin + kStrip, window.x1));
   });
 }
 

@@ -15,7 +15,7 @@ namespace limpid {
 namespace {
 
 /// Samples of the picture: surfaces over the water, and places on it.
-constexpr int kColumns = 96, kRows = 54, kPlaceColumns = 8, kPlaceRows = 8;
+constexpr int kColumns = 96, kRows = 54, kPlaceColumns = 6, kPlaceRows = 6;
 /// Directions around a place, and bands of elevation with equal light of an even sky: equal steps
 /// of the sine's square.
 constexpr int kAround = 32, kBands = 8;
@@ -83,10 +83,14 @@ class Picture {
   }
 
   /// The mean over all places; nothing hidden if there are none.
-  Cover mean(double closed) const {
+  Cover mean(double closed, Executor& executor) const {
+    std::vector<Cover> covers(places_.size());
+    run_each(executor, static_cast<int>(places_.size()), [&](int i) {
+      const auto place = static_cast<std::size_t>(i);
+      covers[place] = cover_at(places_[place], closed);
+    });
     Cover sum;
-    for (const glm::dvec2& place : places_) {
-      const Cover one = cover_at(place, closed);
+    for (const Cover& one : covers) {
       sum.hidden += one.hidden;
       sum.light = sum.light + one.light;
     }
@@ -204,12 +208,12 @@ class Picture {
 }  // namespace
 
 Rgb<double> surroundings(const Frame& frame, const Pass& pass, const Rgb<double>& sky,
-                         double closed) {
+                         double closed, Executor& executor) {
   if (!(pass.eye_above > 0) || !frame.plane(PlaneId::kDepth)) return sky;
   for (int i = 0; i < 3; ++i) {
     if (!frame.plane(plane_after(PlaneId::kColorR, i))) return sky;
   }
-  const Cover cover = Picture(frame, pass).mean(closed);
+  const Cover cover = Picture(frame, pass).mean(closed, executor);
   return (1 - cover.hidden) * sky + cover.light;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "limpid/core/executor.h"
 #include "limpid/core/frame.h"
 
 #include "op/pass.h"
@@ -18,6 +19,6 @@ namespace limpid {
 /// below the water, or without water in the picture. Depths of 0 and below count as no surface.
 /// Colors that are negative, NaN or inf count as black.
 Rgb<double> surroundings(const Frame& frame, const Pass& pass, const Rgb<double>& sky,
-                         double closed);
+                         double closed, Executor& executor);
 
 }  // namespace limpid

@@ -9,6 +9,18 @@
 
 namespace limpid {
 
+/// Whether a march of these `steps` meets a surface in the picture between the surface point and
+/// the sun: 1 or 0, 0 for lanes other than `lanes`.
+template <class F, class Tap, class Mask>
+F sun_met(const Pass& c, const Pixel<F>& p, const Tap& tap, const Mask& lanes,
+          const ScreenRay<F>& to_sun, const MirrorSteps& steps) {
+  const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
+  const F hit =
+      MirrorSearch<F, Tap>::march(c, tap, lanes, PlaneId::kDepth, c.dry, p, to_sun, steps, above)
+          .hit;
+  return select(lanes, hit, F(0));
+}
+
 /// How much surfaces hide the sun from the surface point: 1 if one in the picture stands between
 /// them, 0 for lanes other than `lanes`. If the ray to the sun leaves the picture, and not towards
 /// the viewer, the surface at that edge goes on beyond it: wholly as high as the picture shows it,
@@ -19,12 +31,9 @@ F sun_hidden(const Pass& c, const Pixel<F>& p, const Tap& tap, const Mask& lanes
   constexpr double kEnds = 3;
   const Vec3<F> to_sun = vec3_of<F>(c.sun.direction);
   const ScreenRay<F> ray(c, p, to_sun);
-  const auto above = [&](Vec2<F> shift, F depth) { return height_at(c, p, shift, depth) > F(0); };
-  const F hit =
-      MirrorSearch<F, Tap>::march(c, tap, lanes, PlaneId::kDepth, c.dry, p, ray, kSteps, above).hit;
-  F hidden = select(lanes, hit, F(0));
+  F hidden = sun_met(c, p, tap, lanes, ray, kSteps);
   const F end = ray.s_at(reach_ahead(c, c.dry, p.uv, ray.across));
-  const auto leaves = lanes && hit < F(0.5) && ray.depth_step > F(0) && end < F(1e20);
+  const auto leaves = lanes && hidden < F(0.5) && ray.depth_step > F(0) && end < F(1e20);
   if_any(leaves, [&] {
     const Vec2<F> edge = ray.shift_at(select(leaves, end, F(1)));
     const F seen = tap.nearest(PlaneId::kDepth, edge);

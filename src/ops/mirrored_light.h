@@ -156,7 +156,7 @@ struct MirroredLight : MirroredPicture {
     const Vec2<F> infinity = place_at(c, p, own, F(HUGE_VAL));
     const F end_depth = tap.nearest(PlaneId::kReflectionDepth, infinity);
     const auto strays = hit < F(1) && passes_behind(c, p, own, infinity, end_depth);
-    const Landing<F> far = far_landing(c, p, tap, own, infinity, end_depth, strays);
+    const Landing<F> far = far_landing(params, c, p, tap, own, infinity, end_depth, strays);
     // Where the mirror saw into an object, the picture shows the outside at the same place.
     const auto from_outside = [&](const auto& meets_it, Mirrored<F> seen) {
       if (!c.planes.has(PlaneId::kReflectionValid) || !c.planes.covers(kColorPlanes)) return seen;
@@ -273,8 +273,9 @@ struct MirroredLight : MirroredPicture {
   /// What stands nearer to the viewer than the pixel's water is certainly not mirrored there: then
   /// the places beyond it count, too, which have a higher sky.
   template <class F, class Tap, class Mask>
-  static Landing<F> far_landing(const Pass& c, const Pixel<F>& p, const Tap& tap,
-                                const ScreenRay<F>& ray, Vec2<F> far, F seen, const Mask& strays) {
+  static Landing<F> far_landing(const Params& params, const Pass& c, const Pixel<F>& p,
+                                const Tap& tap, const ScreenRay<F>& ray, Vec2<F> far, F seen,
+                                const Mask& strays) {
     Vec2<F> landing = far;
     F lost(0);
     if_any(strays, [&] {
@@ -300,7 +301,8 @@ struct MirroredLight : MirroredPicture {
         take(open > F(0.5), F(-1), away);
         return open > F(0.5);
       });
-      repeat<F>(kHalvings, [&] {
+      // Looks with one facet are for speed: they leave out the halving.
+      repeat<F>(params.facets == Facets::kSpread ? kHalvings : 0, [&] {
         const F middle = F(0.5) * (surface + free);
         const auto good = is_free(middle);
         free = select(good, middle, free);

@@ -26,8 +26,7 @@ namespace limpid {
 /// disc, from slopes that the pixel does not resolve (slope_variance), from `roughness`, as for
 /// ggx, and from the disc, Sun::diameter. The only model whose energy is that of the mirrored disc
 /// for any pixel size. Without a shadow plane of the surface it searches for occluders of the sun
-/// in the dry depth, objects that the picture's edge cuts included, and never takes the shadow of
-/// the bottom.
+/// in the dry depth, and never takes the shadow of the bottom.
 struct SunHighlight {
   enum class Model { kPhong, kBlinnPhong, kGgx, kSlopes };
   struct Params {
