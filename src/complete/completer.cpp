@@ -224,9 +224,12 @@ void Completer::complete_water(const Plan& plan, PlaneSet made, bool pixels, con
   if (pixels) {
     const double closed = closed_share(frame, pass);
     const bool known = frame.sky_radiance || pass.has_sky;
-    sky = surroundings(frame, pass, sky, closed, executor);
-    // In a room the surfaces tell of the light as well as a sky does.
-    if (known || closed > 0) frame.sky_radiance = sky;
+    // A look's ambient is the light in the water as it is; in a room the surfaces tell of the light
+    // as well as a sky does.
+    if (known || closed > 0) {
+      sky = surroundings(frame, pass, sky, closed, executor);
+      frame.sky_radiance = sky;
+    }
   }
   const WaterFloor floor =
       scattering.inside && pixels ? water_floor(frame, pass, sky) : WaterFloor{};

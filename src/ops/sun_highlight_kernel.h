@@ -40,7 +40,7 @@ struct Kernel<SunHighlight> : SunHighlight {
     if (params.model == Model::kSlopes && !c.planes.has(PlaneId::kSurfaceShadow)) {
       return strip.probe([&](Pixel<F>& p, const auto& tap) {
         F seen = select(p.side > F(0.5), lobe(params, c, p), F(0));
-        // The glint's own search is short: half of the time of the thorough one of murky water.
+        // Shorter than the search of murky water: a glint covers few pixels and shows no outline.
         constexpr MirrorSteps kSteps{16, 0.06, 0.03};
         const ScreenRay<F> to_sun(c, p, vec3_of<F>(c.sun.direction));
         if_any(seen > F(0),

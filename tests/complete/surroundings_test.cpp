@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "complete/completer.h"
 #include "complete/shore.h"
 
 // The light of the sky and of the surfaces around that falls on the water.
@@ -122,6 +123,41 @@ TEST(Surroundings, AreTheSkyFromBelowAndWithoutColors) {
 TEST(Surroundings, ColorsThatAreNoneAreBlack) {
   const double dark = light(wall(6, 0));
   for (const float color : {-1.0f, kInf, std::nanf("")}) EXPECT_EQ(light(wall(6, color)), dark);
+}
+
+/// The albedo of a bottom before a black wall, in a picture without sky: what the surroundings leave
+/// of a scene's sky lights it, and all of a look's ambient.
+TEST(Surroundings, AnAmbientLightsTheBottomAsItIs) {
+  const auto albedo = [](bool has_sky, double top) {
+    Shore shore;
+    shore.far = 5, shore.top = top, shore.deep = 1;
+    shore.scene.camera->view = glm::lookAt(glm::dvec3(0, 2, 0), {0, 1.3, -1}, {0, 1, 0});
+    shore.buffers.set(PlaneId::kDepth, [&](int x, int y) { return shore.dry_depth(x, y); });
+    const Size size = Shore::kSize;
+    for (int c = 0; c < 3; ++c) {
+      shore.buffers.set(plane_after(PlaneId::kColorR, c),
+                        [&](int x, int y) { return shore.dry_depth(x, y) < 5 ? 0.1f : 0; });
+    }
+    if (has_sky) shore.scene.sky = SkyLight{{kSky, kSky, kSky}};
+    shore.buffers.fill(PlaneId::kShadow, 1);
+    shore.scene.sun.emplace();
+    shore.scene.sun->color = {0, 0, 0};
+    Look look;
+    DepthFog::Params& water = look.of<DepthFog>();
+    water.model = DepthFog::Model::kRadiativeTransfer;
+    water.scattering = {0.2, 0.2, 0.2};
+    water.ambient = {kSky, kSky, kSky};
+    const Frame& frame = shore.buffers.frame;
+    const Plan plan = make_plan(look, test::inputs_of(frame, shore.scene));
+    EXPECT_TRUE(plan.completed.covers(kAlbedoPlanes));
+    Completer completer;
+    const Pass pass(shore.scene, frame, look.water.ior, plan.made);
+    return completer.complete(plan, frame, pass, *make_executor(1))
+        .plane(PlaneId::kAlbedoG)
+        .at(size.width / 2, size.height - 2);
+  };
+  EXPECT_GT(albedo(true, 12), 1.05f * albedo(true, 0));
+  EXPECT_EQ(albedo(false, 12), albedo(false, 0));
 }
 
 }  // namespace
