@@ -21,14 +21,12 @@ Model raised_water(const Model& model, const WaterPlane& water, double time) {
     Mesh mesh = model.meshes[static_cast<std::size_t>(instance.mesh)];
     mesh.material = 0;
     mesh.uvs.clear();
-    mesh.normals.resize(mesh.positions.size());
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-      const glm::dvec3 p(instance.world_from_mesh * glm::dvec4(mesh.positions[i], 1));
+    mesh.normals.clear();
+    for (glm::vec3& position : mesh.positions) {
+      const glm::dvec3 p(instance.world_from_mesh * glm::dvec4(position, 1));
       const WaveHeight wave =
           wave_height(water.waves, glm::dot(p, axes.x), glm::dot(p, axes.y), time);
-      mesh.positions[i] = glm::vec3(p + wave.height * water.up);
-      mesh.normals[i] =
-          glm::vec3(glm::normalize(water.up - wave.slope_x * axes.x - wave.slope_y * axes.y));
+      position = glm::vec3(p + wave.height * water.up);
     }
     // For either winding of the mesh, its front becomes the side facing a viewer above.
     for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
@@ -44,25 +42,39 @@ Model raised_water(const Model& model, const WaterPlane& water, double time) {
   return raised;
 }
 
+glm::dvec3 wave_normal(const WaterPlane& water, const glm::dvec3& point, double time) {
+  const PlaneAxes axes = plane_axes(water.up);
+  const WaveHeight wave =
+      wave_height(water.waves, glm::dot(point, axes.x), glm::dot(point, axes.y), time);
+  return glm::normalize(water.up - wave.slope_x * axes.x - wave.slope_y * axes.y);
+}
+
 double highest_crest(const WaterPlane& water) {
   double sum = 0;
   for (const SineWave& wave : water.waves) sum += std::abs(wave.amplitude);
   return sum;
 }
 
-void point_out_of_water(const glm::dvec3& up, std::array<Plane, 3>& normal) {
-  const Rect window = normal[0].view().window;
-  for (int y = window.y0; y < window.y1; ++y) {
-    for (int x = window.x0; x < window.x1; ++x) {
-      float& nx = normal[0].view().at(x, y);
-      float& ny = normal[1].view().at(x, y);
-      float& nz = normal[2].view().at(x, y);
-      if (glm::dot(glm::dvec3(nx, ny, nz), up) >= 0) continue;
-      nx = -nx;
-      ny = -ny;
-      nz = -nz;
+std::array<Plane, 3> surface_normals(const Plane& depth, const Camera& camera,
+                                     const WaterPlane& water, double time, const Rect& display,
+                                     Executor& executor) {
+  const View<const float> z = depth.view();
+  const Rays rays = rays_of(camera, {display.width(), display.height()});
+  const glm::dvec3 eye = camera.eye();
+  std::array<Plane, 3> normals{Plane(z.window), Plane(z.window), Plane(z.window)};
+  run_each(executor, z.window.height(), [&](int row) {
+    const int y = z.window.y0 + row;
+    for (int x = z.window.x0; x < z.window.x1; ++x) {
+      const double far = z.at(x, y), u = x - display.x0 + 0.5, v = y - display.y0 + 0.5;
+      if (std::isinf(far)) continue;
+      const glm::dvec3 point = eye + rays.origin_at(u, v) + far * rays.ray_at(u, v);
+      const glm::dvec3 normal = wave_normal(water, point, time);
+      for (int c = 0; c < 3; ++c) {
+        normals[static_cast<std::size_t>(c)].view().at(x, y) = static_cast<float>(normal[c]);
+      }
     }
-  }
+  });
+  return normals;
 }
 
 SeenSurface calm_surface(const Camera& camera, const WaterPlane& water, const Rect& display,

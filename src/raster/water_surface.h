@@ -10,9 +10,13 @@ namespace limpid {
 
 struct ShadowMap;
 
-/// The water of a model at one time: its meshes in world space, every vertex raised by the waves,
-/// with the true normals of the raised surface. Empty if the model has no water.
+/// The water of a model at one time: its meshes in world space, every vertex raised by the waves.
+/// Empty if the model has no water.
 Model raised_water(const Model& model, const WaterPlane& water, double time);
+
+/// Unit normal of the waves at a point in world space, out of the water. Exact between the vertices
+/// of raised_water, however far apart they are.
+glm::dvec3 wave_normal(const WaterPlane& water, const glm::dvec3& point, double time);
 
 /// The water surface seen by one camera, over a window of its display.
 struct SeenSurface {
@@ -23,8 +27,10 @@ struct SeenSurface {
 /// Height of the highest wave over the calm plane.
 double highest_crest(const WaterPlane& water);
 
-/// Flips normals that point into the water, towards a viewer below.
-void point_out_of_water(const glm::dvec3& up, std::array<Plane, 3>& normal);
+/// The normals of the waves at each point of the surface, 0 where there is no surface.
+std::array<Plane, 3> surface_normals(const Plane& depth, const Camera& camera,
+                                     const WaterPlane& water, double time, const Rect& display,
+                                     Executor& executor);
 
 /// The calm plane as the camera sees it.
 SeenSurface calm_surface(const Camera& camera, const WaterPlane& water, const Rect& display,

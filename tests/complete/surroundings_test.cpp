@@ -125,8 +125,8 @@ TEST(Surroundings, ColorsThatAreNoneAreBlack) {
   for (const float color : {-1.0f, kInf, std::nanf("")}) EXPECT_EQ(light(wall(6, color)), dark);
 }
 
-/// The albedo of a bottom before a black wall, in a picture without sky: what the surroundings leave
-/// of a scene's sky lights it, and all of a look's ambient.
+/// The albedo of a bottom before a black wall, in a picture without sky: what the surroundings
+/// leave of a scene's sky lights it, and all of a look's ambient.
 TEST(Surroundings, AnAmbientLightsTheBottomAsItIs) {
   const auto albedo = [](bool has_sky, double top) {
     Shore shore;

@@ -218,17 +218,48 @@ TEST(RenderPlate, WavesMoveTheSurfaceAndGiveItsTrueNormals) {
       const glm::dvec3 p = scene.camera->eye() + depth * rays.ray_at(x + 0.5, y + 0.5);
       const WaveHeight wave =
           wave_height(scene.water->waves, glm::dot(p, axes.x), glm::dot(p, axes.y), scene.time);
-      EXPECT_NEAR(p.y, wave.height, 0.002);  // the mesh is flat between its vertices
+      EXPECT_NEAR(p.y, wave.height, 2e-5);
       const glm::dvec3 n =
           glm::normalize(scene.water->up - wave.slope_x * axes.x - wave.slope_y * axes.y);
       for (int c = 0; c < 3; ++c) {
         const PlaneId id = plane_after(PlaneId::kSurfaceNormalX, c);
-        EXPECT_NEAR(plate.frame.plane(id).at(x, y), n[c], 0.01);
+        EXPECT_NEAR(plate.frame.plane(id).at(x, y), n[c], 1e-5);
       }
       ++checked;
     }
   }
   EXPECT_GT(checked, 1000);
+}
+
+/// Two triangles suffice for waves; a mesh over the calm plane's waves stays where it is.
+TEST(RenderPlate, WavesAreThoseOfTheSceneOnAnyMesh) {
+  Scene scene = over_basin();
+  scene.water->waves = {{0.05, 1.1, 0.7, 0.3, 2}, {0.01, -9, 4, 1.3, 3}};
+  const auto with_water = [&](float height, int cells) {
+    Model model = basin();
+    model.meshes[3] = quad({-8, height, 4}, {16, 0, 0}, {0, 0, -12}, cells, 0);
+    return render_plate(model, scene, {.size = kSize}, kEverything, *make_executor(1));
+  };
+  const RenderedPlate fine = with_water(0, 60), coarse = with_water(0, 1), high = with_water(1, 60);
+  const auto depth_of = [](const RenderedPlate& plate, int x, int y) {
+    return plate.frame.plane(PlaneId::kSurfaceDepth).at(x, y);
+  };
+  int wet = 0, over = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const float at = depth_of(fine, x, y);
+      if (!std::isfinite(at) || !std::isfinite(depth_of(coarse, x, y))) continue;
+      ++wet;
+      over += depth_of(high, x, y) < 0.7f * at;
+      EXPECT_EQ(depth_of(coarse, x, y), at);
+      for (int c = 0; c < 3; ++c) {
+        const PlaneId id = plane_after(PlaneId::kSurfaceNormalX, c);
+        EXPECT_EQ(coarse.frame.plane(id).at(x, y), fine.frame.plane(id).at(x, y));
+      }
+    }
+  }
+  EXPECT_GT(wet, 1000);
+  EXPECT_GT(over, wet / 2);
 }
 
 TEST(RenderPlate, NormalsPointOutOfTheWaterWhicheverWayItIsWound) {
@@ -434,12 +465,12 @@ TEST(RenderPlate, TheSurfaceIsSeenFromBelow) {
       const glm::dvec3 p = scene.camera->eye() + depth * rays.ray_at(x + 0.5, y + 0.5);
       const WaveHeight wave =
           wave_height(scene.water->waves, glm::dot(p, axes.x), glm::dot(p, axes.y), scene.time);
-      EXPECT_NEAR(p.y, wave.height, 0.002);
+      EXPECT_NEAR(p.y, wave.height, 2e-5);
       const glm::dvec3 n =
           glm::normalize(scene.water->up - wave.slope_x * axes.x - wave.slope_y * axes.y);
       for (int c = 0; c < 3; ++c) {
         const PlaneId id = plane_after(PlaneId::kSurfaceNormalX, c);
-        EXPECT_NEAR(plate.frame.plane(id).at(x, y), n[c], 0.01);
+        EXPECT_NEAR(plate.frame.plane(id).at(x, y), n[c], 1e-5);
       }
       ++seen;
       const double dry = plate.frame.plane(PlaneId::kDepth).at(x, y);

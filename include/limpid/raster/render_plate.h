@@ -35,10 +35,12 @@ struct RenderedPlate {
 /// validity: 1 for a front face or the sky, 0 inside of clipped objects. An eye below the calm
 /// plane sees the mirror's underside; an eye in the plane sees none, and these planes stay empty.
 /// The layer below: geometry under the calm plane, or under the highest crest of waves, by a clip
-/// plane there. Depth and normals of the water meshes, displaced by scene.water.waves, seen from
-/// either side, and the sun's visibility there; without a water mesh depth and normals stay empty,
-/// as the chain derives them from the calm plane, and the shadow is that on the calm plane. Without
-/// a sun there is ambient light only, and neither direct sunlight nor a surface shadow.
+/// plane there. Depth and normals of the surface where water meshes are seen, displaced by
+/// scene.water.waves, from either side, and the sun's visibility there. They are those of the waves
+/// themselves, however far apart a mesh's vertices are, unless the mesh lies higher or lower than
+/// waves on the calm plane would be. Without a water mesh depth and normals stay empty, as the
+/// chain derives them from the calm plane, and the shadow is that on the calm plane. Without a sun
+/// there is ambient light only, and neither direct sunlight nor a surface shadow.
 ///
 /// Throws Error if the scene lacks camera or water, if the sun is below the horizon, or if a size
 /// is out of bounds.

@@ -10,11 +10,11 @@
 
 #include "judge/compare/flip.h"
 #include "judge/report/brought.h"
-#include "judge/report/finer_water.h"
 #include "judge/report/lagoon.h"
 #include "judge/report/measure.h"
 #include "judge/report/numbers.h"
 #include "judge/report/rounds.h"
+#include "judge/trace/finer_water.h"
 #include "judge/trace/truth.h"
 
 namespace limpid {
@@ -181,10 +181,7 @@ Model fine_model(const Measuring& m, const std::filesystem::path& scene_file,
                  const SceneFile& file) {
   Model model = load_gltf(file.geometry);
   if (!file.scene.has_waves()) return model;
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const SineWave& wave : file.scene.water->waves) {
-    shortest = std::min(shortest, wave_length({&wave, 1}));
-  }
+  const double shortest = shortest_wave(file.scene.water->waves);
   const Scene scene = Subject::scene_of(file, model, m.options.size);
   PartedWater parted =
       with_finer_water(std::move(model), {.shortest_wave = shortest, .eye = scene.camera->eye()});

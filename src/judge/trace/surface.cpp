@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "judge/trace/finer_water.h"
 #include "judge/trace/one_pixel.h"
 #include "ops/wave_normals_kernel.h"
 #include "raster/water_surface.h"
@@ -19,11 +20,26 @@ WaveNormals::Params unfiltered(WaveNormals::Params waves) {
   return waves;
 }
 
+/// The raised water, its grid finer where the waves need it: a model's own grid may be too wide for
+/// its waves.
+Model fine_water(const Model& model, const Scene& scene) {
+  const WaterPlane& water = *scene.water;
+  if (water.waves.empty()) return raised_water(model, water, scene.time);
+  FinerWater how;
+  how.eye = scene.camera->eye();
+  how.shortest_wave = shortest_wave(water.waves);
+  const WaterPlane calm{water.up, water.height, {}};
+  return raised_water(with_finer_water(raised_water(model, calm, scene.time), how).model, water,
+                      scene.time);
+}
+
 }  // namespace
 
 Surface::Surface(const Model& model, const Scene& scene, const Look& look, const Texture& wave_map,
                  const Pass& pass)
     : pass_(pass),
+      water_(*scene.water),
+      time_(scene.time),
       waves_(unfiltered(look.of<WaveNormals>())),
       wavy_(makes_waves(waves_, wave_map)),
       has_mesh_(std::any_of(model.instances.begin(), model.instances.end(),
@@ -31,7 +47,7 @@ Surface::Surface(const Model& model, const Scene& scene, const Look& look, const
       raised_(has_mesh_ && !scene.water->waves.empty()),
       height_(-pass.eye_above),
       crest_(raised_ ? highest_crest(*scene.water) : 0),
-      mesh_(made(raised_water(model, *scene.water, scene.time))) {}
+      mesh_(made(fine_water(model, scene))) {}
 
 Triangles Surface::made(const Model& water) {
   std::vector<Triangles::Part> parts;
@@ -43,7 +59,6 @@ Triangles Surface::made(const Model& water) {
     part.indices = with_area(part.positions, mesh.indices);
     if (part.indices.empty()) continue;
     parts.push_back(std::move(part));
-    normals_.emplace_back(mesh.normals.begin(), mesh.normals.end());
   }
   return Triangles(std::move(parts));
 }
@@ -54,7 +69,8 @@ std::optional<SurfacePoint> Surface::nearest(const Ray& ray, bool from_air) cons
     const auto hit = mesh_.nearest(ray, from_air ? Sides::kFront : Sides::kBack);
     if (!hit) return std::nullopt;
     found = {hit->distance, hit->point, hit->front, {}};
-    found.normal = raised_ ? mesh_normal_at(*hit) : normal_at(hit->point);
+    found.normal =
+        raised_ ? wave_normal(water_, hit->point + pass_.eye, time_) : normal_at(hit->point);
   } else {
     const double sinks = -glm::dot(ray.direction, pass_.up);
     if (!(from_air ? sinks > 0 : sinks < 0)) return std::nullopt;
@@ -88,15 +104,6 @@ glm::dvec3 Surface::normal_at(const glm::dvec3& point) const {
   OnePixel strip(pixel);
   Kernel<WaveNormals>::apply(waves_, pass_, strip);
   return glm_of(pixel.normal);
-}
-
-glm::dvec3 Surface::mesh_normal_at(const Triangles::Hit& hit) const {
-  const glm::dvec3 shares = corner_shares(mesh_.corners(hit.part, hit.triangle), hit.point);
-  const std::uint32_t* corner =
-      mesh_.parts()[hit.part].indices.data() + 3 * std::size_t{hit.triangle};
-  glm::dvec3 sum(0);
-  for (int k = 0; k < 3; ++k) sum += shares[k] * normals_[hit.part][corner[k]];
-  return glm_of(normalize_or(formula_of(sum), formula_of(hit.front)));
 }
 
 }  // namespace limpid::trace

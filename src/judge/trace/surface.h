@@ -38,15 +38,15 @@ class Surface {
  private:
   Triangles made(const Model& water);
   glm::dvec3 normal_at(const glm::dvec3& point) const;
-  glm::dvec3 mesh_normal_at(const Triangles::Hit& hit) const;
 
   const Pass& pass_;
+  const WaterPlane& water_;
+  double time_;
   const WaveNormals::Params waves_;
   bool wavy_;  ///< from the operator wave_normals
   bool has_mesh_, raised_;
-  double height_;                                 ///< of the calm plane over the eye
-  double crest_;                                  ///< of the highest wave, over the calm plane
-  std::vector<std::vector<glm::dvec3>> normals_;  ///< per part of the mesh and vertex
+  double height_;  ///< of the calm plane over the eye
+  double crest_;   ///< of the highest wave, over the calm plane
   Triangles mesh_;
 };
 

@@ -17,15 +17,16 @@ inline constexpr int kMaxTruthSamples = 16, kMaxTruthPaths = 65536, kMaxTruthPho
 /// The true light, by tracing rays through a model: the standard for the chain, which only looks up
 /// pictures.
 ///
-/// A view ray meets the model's dry triangles or the water: its raised mesh, as render_plate()
-/// draws it, or the calm plane if the model has none. At the water it splits. The mirrored ray
-/// continues through the real scene, above the water or onto it again. The refracted ray, one for
-/// each index of refraction, continues to the real bottom, or up through a crest. Both are traced
-/// through kTruthEvents events at the surface; after these they see only dry surfaces.
+/// A view ray meets the model's dry triangles or the water: its raised mesh, or the calm plane if
+/// the model has none. Where the mesh is too wide for the scene's waves its edges are parted first
+/// (FinerWater). At the water the ray splits. The mirrored ray continues through the real scene,
+/// above the water or onto it again. The refracted ray, one for each index of refraction, continues
+/// to the real bottom, or up through a crest. Both are traced through kTruthEvents events at the
+/// surface; after these they see only dry surfaces.
 ///
 /// The look gives the properties of surface and water, by the parameters and in the conventions of
 /// the chain, so that on calm water over a flat, sunlit floor the chain and Light::kOnce agree:
-/// - Normals: those of the raised mesh, or else those of wave_normals for its map or waves, on a
+/// - Normals: those of the scene's waves, or else those of wave_normals for its map or waves, on a
 ///   surface that stays flat.
 /// - Index: water.ior for green, with prism_split.gain times the dispersion of water for the
 ///   others, wherever an index is used, for any prism_split.model. Reflectance is exact.

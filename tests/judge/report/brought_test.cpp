@@ -15,8 +15,8 @@
 #include "limpid/files/text/look_file.h"
 #include "limpid/plate/texture.h"
 
-#include "judge/report/finer_water.h"
 #include "judge/report/measure.h"
+#include "judge/trace/finer_water.h"
 #include "paths.h"
 
 /// The rows of the report for buffers that a host brings: where they are judged, and that each

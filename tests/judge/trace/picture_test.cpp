@@ -8,6 +8,7 @@
 #include "limpid/raster/render_plate.h"
 
 #include "judge/trace/trace_scenes.h"
+#include "optics/waves.h"
 
 /// Samples, threads, dry pixels, waves, and refused scenes.
 
@@ -55,6 +56,26 @@ TEST(TracedPicture, HasTheSameBitsWhateverTheThreadsAndForEachSeedItsOwn) {
   }
   options.seed = 1;
   EXPECT_FALSE(same_bits(one, traced(model, wavy_scene(), look, options, 2)));
+}
+
+TEST(TracedPicture, WavesAreThoseOfTheSceneOnAMeshOfTwoTriangles) {
+  Model model = model_of({level(-1, 6), level(0, 40)}, lambert({0.7, 0.6, 0.5}));
+  model.instances[1].water = true;
+  const Scene scene = wavy_scene();
+  const TruthPicture p = traced(model, scene, Look{}, every_aov());
+  const Rays rays = rays_of(*scene.camera, {kTraceSize.width, kTraceSize.height});
+  for_each_pixel(kTraceSize, [&](int x, int y) {
+    const double depth = value(p, Aov::kSurfaceDepth, x, y, 0);
+    if (!std::isfinite(depth)) return;
+    const glm::dvec3 at = scene.camera->eye() + depth * rays.ray_at(x + 0.5, y + 0.5);
+    const PlaneAxes axes = plane_axes(scene.water->up);
+    const WaveHeight wave =
+        wave_height(scene.water->waves, glm::dot(at, axes.x), glm::dot(at, axes.y), scene.time);
+    EXPECT_NEAR(at.y, wave.height, 0.003);  // a tenth of what edges of a quarter wave would miss
+    const glm::dvec3 normal =
+        glm::normalize(scene.water->up - wave.slope_x * axes.x - wave.slope_y * axes.y);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(value(p, Aov::kNormal, x, y, c), normal[c], 1e-4);
+  });
 }
 
 TEST(TracedPicture, TermsSumToThePicture) {

@@ -1,9 +1,10 @@
-#include "judge/report/finer_water.h"
+#include "judge/trace/finer_water.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -151,6 +152,14 @@ std::vector<Mesh> parted_within(double reach, const Model& model, const FinerWat
 }
 
 }  // namespace
+
+double shortest_wave(std::span<const SineWave> waves) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const SineWave& wave : waves) {
+    shortest = std::min(shortest, 2 * std::numbers::pi / std::hypot(wave.k_x, wave.k_y));
+  }
+  return shortest;
+}
 
 PartedWater with_finer_water(Model model, const FinerWater& how) {
   constexpr double kAll = std::numeric_limits<double>::infinity();

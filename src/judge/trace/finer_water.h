@@ -1,11 +1,16 @@
 #pragma once
 #include <cstddef>
+#include <span>
 
 #include <glm/vec3.hpp>
 
+#include "limpid/core/scene.h"
 #include "limpid/raster/model.h"
 
 namespace limpid {
+
+/// Length of the shortest of the waves, in scene units; +inf for calm water.
+double shortest_wave(std::span<const SineWave> waves);
 
 /// How fine the grid of a water has to be for its waves, on lines from vertex to vertex. An edge is
 /// no longer than a quarter of the shortest wave, which keeps two thirds of the squares of that
