@@ -25,9 +25,12 @@ class EdgeBlur {
   struct Growth {
     std::array<double, kWidths> own{}, next{}, dry{}, wet{};
     std::array<double, 2> after{};
-    int steps = 0, speckled = 0;  ///< number of steps, and of those with Step::speckle
+    /// Number of steps, of those with Step::speckle, and of those that grow up to distance 1.
+    int steps = 0, speckled = 0, grown = 0;
     void add(const Growth& other);
     bool grows_at(int rung) const;
+    /// Whether the sums grow up to distance 1, or most of the steps do.
+    bool is_blurred() const;
     /// Whether many sides are one pixel wide: objects thinner than a pixel, or sides that alternate
     /// at random.
     bool is_speckled() const;

@@ -228,7 +228,7 @@ bool Edges::State::find_bands(const EdgePicture& picture, Executor& executor) {
   // taken for a filter.
   EdgeBlur::Growth whole;
   for (const EdgeBlur::Growth& of_row : resolved) whole.add(of_row);
-  const bool filtered = whole.grows_at(0), no_wider = !whole.grows_at(1);
+  const bool filtered = whole.is_blurred(), no_wider = !whole.grows_at(1);
   for (std::size_t down = 0; down < 2; ++down) {
     rungs[down].resize(growth[down].size());
     for (int tile = 0; tile < static_cast<int>(tiles.area()); ++tile) {

@@ -197,6 +197,30 @@ TEST(Edges, OfPalesThatStandClose) {
   for (int x = 8; x < 120; ++x) EXPECT_NEAR(parted.cover(x, post), cover(x), 0.06) << x;
 }
 
+// A bright line as wide as a pixel along one of four posts changes most there, and does not grow.
+TEST(Edges, OfMostObjectsTellThoseOfOneWithABrightLine) {
+  constexpr int kApart = 32, kWide = 12;
+  const auto inside = [](int x) { return kWide / 2 - std::abs((x % kApart) + 0.3 - kApart / 2); };
+  const auto cover = [&](int x) { return std::clamp(inside(x) + 0.5, 0.0, 1.0); };
+  Post post;
+  post.make();
+  for (int c = 0; c < 3; ++c) {
+    post.buffers.set(plane_after(PlaneId::kColorR, c), [&](int x, int) {
+      const bool line = x < kApart && cover(x) > 0.5 && inside(x) < 1;
+      const float front = line ? 60.0f : Post::channel(post.dark, c);
+      return static_cast<float>(cover(x)) * front +
+             static_cast<float>(1 - cover(x)) * Post::channel(post.light, c);
+    });
+  }
+  post.buffers.set(PlaneId::kDepth, [&](int x, int y) {
+    return cover(x) > 0.5 ? static_cast<float>(Post::kPostDepth) : post.bottom_depth(y);
+  });
+  const Parted parted(post);
+  ASSERT_TRUE(parted.frame.edges);
+  for (int x = kApart; x < Post::kSize.width; ++x)
+    EXPECT_NEAR(parted.cover(x, post), cover(x), 0.1) << x;
+}
+
 TEST(Edges, TextureOfBothSidesDoesNotCount) {
   Post post;
   post.blur = 2;
