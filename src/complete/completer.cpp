@@ -164,7 +164,7 @@ void Completer::complete_surface(PlaneSet made, const Pass& pass, Executor& exec
                                  const std::string* simd, Frame& frame) {
   plate_waves_ = {};
   if (made.empty()) return;
-  plate_waves_.raised = 1;
+  plate_waves_ = plate_waves_of_sines(pass);
   displaced_surface_.make(frame, pass, executor, simd);
   take(made, PlaneId::kSurfaceDepth, displaced_surface_.depth(), frame);
 }
@@ -224,10 +224,12 @@ void Completer::complete_water(const Plan& plan, PlaneSet made, bool pixels, con
   if (pixels) {
     const double closed = closed_share(frame, pass);
     const bool known = frame.sky_radiance || pass.has_sky;
-    // A look's ambient is the light in the water as it is; in a room the surfaces tell of the light
-    // as well as a sky does.
+    // A look's ambient is the light in the water as it is; the more closed a room, the more its
+    // surfaces tell of the light.
     if (known || closed > 0) {
-      sky = surroundings(frame, pass, sky, closed, executor);
+      const Rgb<double> left = surroundings(frame, pass, sky, closed, executor);
+      const double counts = known ? 1 : closed;
+      sky = (1 - counts) * sky + counts * left;
       frame.sky_radiance = sky;
     }
   }

@@ -136,8 +136,6 @@ EdgeBlur::Growth EdgeBlur::growth_of(const Step& step, int rungs) const {
   see(1);
   const double size = dot(dry[1], dry[1]) + dot(wet[1], wet[1]) + 1e-12;
   Growth growth;
-  growth.steps = 1;
-  growth.speckled = step.speckle;
   for (std::size_t i = 0; i < static_cast<std::size_t>(rungs); ++i) {
     const bool has_after = i < growth.after.size();
     const std::size_t farthest = i + (has_after ? 2 : 1);
@@ -150,6 +148,8 @@ EdgeBlur::Growth EdgeBlur::growth_of(const Step& step, int rungs) const {
     growth.wet[i] = dot(wet_beyond, wet_beyond) / size;
     if (has_after) growth.after[i] = dot(across[i], across[i + 2]) / size;
   }
+  growth.steps = along.inside(kLadder[2]);  // sees the first distance
+  growth.speckled = growth.steps > 0 && step.speckle;
   growth.grown = growth.next[0] > kGrows * growth.own[0];
   return growth;
 }

@@ -191,4 +191,22 @@ PlateWaves plate_waves_of(const Frame& frame, const WaterView& view) {
   return waves;
 }
 
+PlateWaves plate_waves_of_sines(const WaterView& view) {
+  PlateWaves waves;
+  waves.raised = 1;
+  Products slopes, turns;
+  for (const SineWave& wave : view.waves) {
+    const double a = view.wave_scale * wave.amplitude;
+    const glm::dvec2 k(wave.k_x, wave.k_y);
+    slopes.add(0.5 * a * a, k);
+    turns.add(0.5 * a * a * glm::dot(k, k), k);
+  }
+  waves.variance = slopes.sum;
+  turns.weight = waves.variance.xx + waves.variance.yy;
+  waves.turn = turns.mean();
+  const double most = waves.turn.xx + waves.turn.yy;
+  if (most > kMaxTurn) waves.turn = (kMaxTurn / most) * waves.turn;
+  return waves;
+}
+
 }  // namespace limpid

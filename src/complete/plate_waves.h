@@ -17,4 +17,7 @@ namespace limpid {
 /// there are 64 of them or fewer, to 1.
 PlateWaves plate_waves_of(const Frame& frame, const WaterView& view);
 
+/// Of the sines that raise the water, at their scale, in closed form. `raised` is 1, `smooth` 0.
+PlateWaves plate_waves_of_sines(const WaterView& view);
+
 }  // namespace limpid

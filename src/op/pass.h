@@ -60,7 +60,7 @@ struct Pass : WaterView {
   HeightBound heights = {};
   RangeBound mirrored = {};           ///< likewise, of the depths for mirrored marches
   RangeBound lit = {};                ///< likewise, of the shadow on the surface
-  PlateWaves plate_waves = {};        ///< of the frame's own surface, where a runner has made it
+  PlateWaves plate_waves = {};        ///< of a raised surface, where a runner has made it
   const EdgeSurfaces* edge_surfaces;  ///< the surfaces at its edge, or null
   const Continuation* continuation;   ///< the bottom beyond the picture, or null
   const BottomLayer* bottom_layer;    ///< the bottom behind objects in front of it, or null

@@ -3,9 +3,9 @@
 
 namespace limpid {
 
-/// Statistics of the waves on the frame's own surface (complete/plate_waves.h). Slopes along
-/// WaterView::map_x and map_y count as a Gaussian field: those of two places at the distance r have
-/// the covariance variance exp(-r' turn r / 2).
+/// Statistics of the waves on the frame's own surface, or of the sines that raise the water
+/// (complete/plate_waves.h). Slopes along WaterView::map_x and map_y count as a Gaussian field:
+/// those of two places at the distance r have the covariance variance exp(-r' turn r / 2).
 struct PlateWaves {
   /// 0: the surface is flat at this distance; 1: waves raise it. A ramp in between, so that a
   /// rising camera sees no sudden change.

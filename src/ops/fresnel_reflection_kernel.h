@@ -1,4 +1,7 @@
 #pragma once
+#include <cmath>
+#include <numbers>
+
 #include "limpid/ops/fresnel_reflection.h"
 
 #include "op/operator.h"
@@ -206,21 +209,48 @@ struct Kernel<FresnelReflection> : MirroredLight {
                            ? max(lean_over(facets, i, part, low), max(lean, outlook.high))
                            : lean;
         const Vec3<F> lower = bent(c, p, leaned(low)), higher = bent(c, p, leaned(over));
-        // A ray below the skyline that meets nothing has passed behind a visible object, like a
-        // tree's crown, and ends where the picture shows nothing. If it passes not far behind, it
-        // sees that object.
-        F open(1);
-        steps<F>(0, reads_planes(params, c) ? 1 : 2, [&](auto k) {
-          const F thicker = pick<F>(k, F(1), F(kThicker), F(kThicker));
-          const Mirrored<F> seen =
-              seen_on_march(params, c, p, tap, n, part, lower, higher, thicker);
-          const auto take = open > F(0.5);
-          one = {select(take, seen.light, one.light), select(take, seen.sources, one.sources)};
-          const auto passed = rough && p.side > F(0) && part >= F(1);
-          const auto lost = take && passed && seen.sources.g < F(0.5);
-          open = select(lost, F(1), F(0));
-          return lost;
+        const Again<F> again = again_of(c, p, tap, facet);
+        F meets_again(0);
+        // The reflection's planes show where the rays of the next wave end without a march.
+        const bool marches = c.raised && !reads_planes(params, c);
+        steps<F>(0, marches ? 2 : 1, [&](auto turn) {
+          const auto second = pick<F>(turn, F(0), F(1), F(1)) > F(0.5);
+          const F again_part = select(meets_again > F(0), F(1), F(0));
+          // A ray below the skyline that meets nothing has passed behind a visible object, like a
+          // tree's crown, and ends where the picture shows nothing. If it passes not far behind, it
+          // sees that object.
+          F open(1);
+          Mirrored<F> now{black, black};
+          steps<F>(0, reads_planes(params, c) ? 1 : 2, [&](auto k) {
+            const F thicker = pick<F>(k, F(1), F(kThicker), F(kThicker));
+            const Mirrored<F> seen = seen_on_march(
+                params, c, p, tap, select(second, again.facet, n), select(second, again_part, part),
+                select(second, again.facet, lower), select(second, again.facet, higher), thicker);
+            const auto take = open > F(0.5);
+            now = {select(take, seen.light, now.light), select(take, seen.sources, now.sources),
+                   select(take, seen.distance, now.distance)};
+            const auto passed = rough && p.side > F(0) && part >= F(1) && !second;
+            const auto lost = take && passed && seen.sources.g < F(0.5);
+            open = select(lost, F(1), F(0));
+            return lost;
+          });
+          only<F>(turn, 0, [&] {
+            one = now;
+            if (!c.raised) return;
+            // A ramp from 0: what hardly any ray meets is not looked up.
+            const F meets = again.share * (F(1) - part * again.before(c, now.distance));
+            meets_again = max(meets - F(kSeldom), F(0)) * F(1 / (1 - kSeldom));
+          });
+          only<F>(turn, 1, [&] { one = again.mixed(p, meets_again, one, now); });
+          return meets_again > F(0);
         });
+        if (c.raised && !marches) {
+          const auto meets = meets_again > F(0);
+          if_any(meets, [&] {
+            const End<F> end = follow(c, p, tap, again.facet);
+            one = again.mixed(p, meets_again, one, seen_at(c, p, tap, again.facet, end));
+          });
+        }
       } else {
         one = mirrored(params, c, p, tap, n, tilt);
       }
@@ -316,6 +346,67 @@ struct Kernel<FresnelReflection> : MirroredLight {
     const F end = F(0.5) * pick<F>(i, middle + highest, F(3) * highest - middle, lowest + middle);
     return min(end, (lean - part * low) / max(F(1) - part, F(1e-3)));
   }
+
+  /// Where waves raise the water, the waves that the rays of a facet meet again.
+  template <class F>
+  struct Again {
+    F share;        ///< of the rays, if nothing stands before these waves
+    F reflectance;  ///< of these waves
+    Vec3<F> facet;  ///< mirrors the view as facet and wave together do
+
+    /// `own` light and that of the waves, which mirror `next`, in the share that meets them.
+    Mirrored<F> mixed(const Pixel<F>& p, F meets, const Mirrored<F>& own,
+                      const Mirrored<F>& next) const {
+      const auto mix = [&](Rgb<F> from, Rgb<F> to) {
+        return select(meets > F(0), from + meets * (to - from), from);
+      };
+      const Rgb<F> body = p.transmitted + p.in_scatter;
+      return {mix(own.light, body + reflectance * (next.light - body)),
+              mix(own.sources, next.sources), own.distance};
+    }
+
+    /// The share of the rays that meet something at a distance before they meet waves, which are
+    /// half of the mean wavelength of the slopes away.
+    F before(const Pass& c, F distance) const {
+      const Sym2<double>& turn = c.plate_waves.turn;
+      const double per_length = std::sqrt(std::max(turn.xx + turn.yy, 0.0)) / std::numbers::pi;
+      const F ways = given<F>(per_length, "plate_waves.per_length") * min(distance, F(1e20));
+      return select(distance < F(1e20), exp(F(0) - ways), F(0));
+    }
+  };
+  template <class F, class Tap>
+  static Again<F> again_of(const Pass& c, const Pixel<F>& p, const Tap& tap, Vec3<F> facet) {
+    Again<F> again{F(0), F(1), facet};
+    if (!c.raised) return again;
+    const Vec3<F> up = vec3_of<F>(c.up), ray = mirror(p.to_viewer, facet);
+    const F sine = dot(up, ray);
+    const auto low = tap.wet() && p.side > F(0) && sine < F(kLowRay);
+    if_any(low, [&] {
+      const Vec3<F> level = ray - sine * up, ahead = normalize_or(level, vec3_of<F>(c.b));
+      const Sym2<double>& v = c.plate_waves.variance;
+      const Sym2<F> variance{given<F>(v.xx, "plate_waves.variance", 0),
+                             given<F>(v.xy, "plate_waves.variance", 1),
+                             given<F>(v.yy, "plate_waves.variance", 2)};
+      const F square = along(
+          variance, Vec2<F>{dot(ahead, vec3_of<F>(c.map_x)), dot(ahead, vec3_of<F>(c.map_y))});
+      const auto some = low && square > F(kLeastWaves);
+      const auto per_level = [&](const Vec3<F>& to) {
+        const F high = dot(up, to);
+        return high / max(length(to - high * up), F(1e-3));
+      };
+      const NextMeeting<F> next =
+          next_meeting(per_level(ray), per_level(p.to_viewer), sqrt(max(square, F(kLeastWaves))));
+      const F raised = given<F>(c.plate_waves.raised, "plate_waves.raised");
+      const Vec3<F> on = normalize_or(ahead + next.rise * up, up);
+      again.share = select(some, raised * next.share, F(0));
+      again.reflectance = select(some, fresnel_exact(next.sine, given<F>(c.ior)), F(1));
+      again.facet = select(some, normalize_or(p.to_viewer + on, facet), facet);
+    });
+    return again;
+  }
+  /// Slopes of 1e-3 mirror rays by less than a sun's breadth. Rays that rise more steeply do not
+  /// meet waves of a slope that water has.
+  static constexpr double kLeastWaves = 1e-6, kLowRay = 0.7, kSeldom = 0.01;
 
   /// A facet whose mirrored ray would go into the water, leaned until it goes along it: no such
   /// light comes from the waves of a flat plane. From below, as it is.

@@ -137,7 +137,7 @@ struct MirroredLight : MirroredPicture {
     MirrorSteps how = kImageSteps;
     how.narrow = params.facets == Facets::kSpread;
     Vec2<F> met{F(0), F(0)};
-    F hit(0);
+    F hit(0), distance(HUGE_VAL);
     const auto meets = part > F(0);
     if_any(meets, [&] {
       const ScreenRay<F> ray = image_ray(c, p, low);
@@ -149,6 +149,7 @@ struct MirroredLight : MirroredPicture {
           c, tap, tap.wet() && meets, PlaneId::kReflectionDepth, c.reflection, p, ray, how, ahead);
       hit = select(meets, part * found.hit, hit);
       met = found.shift;
+      distance = select(hit > F(0), found.distance, distance);
     });
     const auto whole = hit >= F(1), parted = hit > F(0) && !whole;
     const Vec3<F> open_facet = select(parted, over, n);
@@ -193,8 +194,10 @@ struct MirroredLight : MirroredPicture {
       const F share = select(second, select(parted, hit, F(0)), F(1));
       seen.light = seen.light + share * (there.light - seen.light);
       seen.sources = seen.sources + share * (there.sources - seen.sources);
+      seen.distance = min(seen.distance, there.distance);
       return parted;
     });
+    seen.distance = min(distance, seen.distance);
     return seen;
   }
 
@@ -213,6 +216,7 @@ struct MirroredLight : MirroredPicture {
       const auto met = wanted && there.hit > F(0.5);
       seen.light = select(met, there.light, seen.light);
       seen.sources = select(met, from_picture<F>(), seen.sources);
+      seen.distance = select(met, there.distance, seen.distance);
       if (c.environment) return;
       const auto open = wanted && !met && lost > F(0.5);
       if_any(open, [&] {

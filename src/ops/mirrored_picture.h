@@ -20,10 +20,10 @@
 namespace limpid {
 
 struct MirroredPicture : FresnelReflection {
-  /// Light, and its source: Pixel::mirror_sources.
   template <class F>
   struct Mirrored {
-    Rgb<F> light, sources;
+    Rgb<F> light, sources;     ///< light, and its source: Pixel::mirror_sources
+    F distance = F(HUGE_VAL);  ///< to the surface that the ray meets, in scene units
   };
   template <class F>
   static LIMPID_INLINE Rgb<F> from_reflection() {
@@ -217,6 +217,7 @@ struct MirroredPicture : FresnelReflection {
         all = {select(below, under.light, all.light), select(below, under.sources, all.sources)};
       });
     }
+    all.distance = select(hit > F(0), distance, all.distance);
     return all;
   }
 
@@ -271,7 +272,8 @@ struct MirroredPicture : FresnelReflection {
         const F share = select(meets, max(goes * goes * higher, closed), F(0)), rest = F(1) - share;
         const Rgb<F> shown = tap.lat_long_rgb(surfaces.colors, place);
         beyond = {rest * beyond.light + (share / max(shape.r, F(1e-6))) * shown,
-                  rest * beyond.sources + share * from_picture<F>()};
+                  rest * beyond.sources + share * from_picture<F>(),
+                  select(share > F(0.5), distance, beyond.distance)};
       });
     });
     return beyond;

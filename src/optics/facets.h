@@ -76,6 +76,35 @@ LIMPID_INLINE ThreeFacets<F> seen_facets(F facing) {
   return {{middle, middle + side, middle - side}, {F(2.0 / 3), F(1.0 / 6), F(1.0 / 6)}};
 }
 
+/// A mirrored ray over water that waves raise.
+template <class F>
+struct NextMeeting {
+  F share;  ///< of such rays, those that meet the waves again
+  F rise;   ///< of these rays after the waves mirror them, per unit of level length
+  F sine;   ///< of the mean angle between these rays and the waves that they meet
+};
+
+/// For a ray that rises by `rise` per unit of level length, over slopes of this deviation along the
+/// ray; the view rises by `view`. The surface hides all rays below the horizon, and of the rays
+/// above it the share of the masking and shadowing of Ross et al. 2005, "Detailed analytical
+/// approach to the Gaussian surface bidirectional reflectance distribution function specular
+/// component applied to the sea surface": a place that the view sees at a flat angle is high, and
+/// few of its rays are hidden. The facets that hide them count by the area that they turn to the
+/// ray, and mirror it up at least to the horizon. To first order in slopes, and with the same
+/// deviation along the view. `deviation` above 0. The share is 0 of rays that rise more than
+/// kHighest deviations: these meet the waves once in 7000 times.
+template <class F>
+LIMPID_INLINE NextMeeting<F> next_meeting(F rise, F view, F deviation) {
+  constexpr double kHighest = 3, kLowest = -6, kFlattest = 1e-3;
+  const F a = min(max(rise / deviation, F(kLowest)), F(kHighest));
+  const F v = min(max(view / deviation, F(kFlattest)), F(kHighest));
+  const AboveZero<F> passes(a), sees(v), meets(F(0) - a);
+  const F above = max(a, F(0)), hidden = max(passes.of[1] - above, F(0));
+  const F share = select(above > F(0), hidden / (hidden + above * sees.of[1] / v), F(1));
+  const F facing = max(deviation * (meets.of[2] / meets.of[1]), F(0) - rise);
+  return {select(a < F(kHighest), share, F(0)), rise + F(2) * facing, min(facing, F(1))};
+}
+
 /// The share of all facets that lean less towards the view than `lean`, of a plane.
 template <class F>
 LIMPID_INLINE F plane_share_under(F lean) {

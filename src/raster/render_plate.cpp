@@ -123,7 +123,7 @@ class PlateRenderer {
       Rasteriser(model).draw({camera, display_, window_, RasterSubject::kWater}, lighting_,
                              {.depth = true}, executor_, image, options_.simd);
       surface.depth = std::move(image.depth);
-      if (scene_.has_waves()) raise_to_waves(surface.depth);
+      if (scene_.has_waves() && is_level(model_, water)) raise_to_waves(surface.depth);
       if (shadow || wanted.meets(kSurfaceNormalPlanes)) {
         surface.normal =
             surface_normals(surface.depth, camera, water, scene_.time, display_, executor_);
@@ -156,27 +156,21 @@ class PlateRenderer {
   }
 
   /// A mesh is flat between its vertices, which may be too far apart for its waves. So it tells
-  /// where there is water, and the waves tell how far away. A mesh that is no part of the calm
-  /// plane keeps its own depth.
+  /// where there is water, and the waves tell how far away.
   void raise_to_waves(Plane& depth) const {
     Frame frame;
     frame.planes[static_cast<std::size_t>(index_of(PlaneId::kDepth))] = depth.view();
     const WaterView view(scene_, display_, {.raises = true, .waves = scene_.water->waves});
     DisplacedSurface waves;
     waves.make(frame, view, executor_, &options_.simd);
-    const double most = kRounded * highest_crest(*scene_.water);
-    for (int y = window_.y0; y < window_.y1; ++y) {
-      const RowRays<double> rays(view, y - view.corner.y + 0.5);
+    run_each(executor_, window_.height(), [&](int row) {
+      const int y = window_.y0 + row;
       for (int x = window_.x0; x < window_.x1; ++x) {
         float& mesh = depth.view().at(x, y);
         const float met = waves.depth().view().at(x, y);
-        if (!std::isfinite(mesh) || !std::isfinite(met)) continue;
-        const double u = x - view.corner.x + 0.5;
-        const double height = mesh * (rays.calm_under + u * rays.calm_under_dx) -
-                              (rays.calm_over + u * rays.calm_over_dx);
-        if (std::abs(height) <= most) mesh = met;
+        if (std::isfinite(mesh) && std::isfinite(met)) mesh = met;
       }
-    }
+    });
   }
 
   void keep(PlaneId id, Plane plane) {
@@ -199,8 +193,6 @@ class PlateRenderer {
   void fill(Plane& plane, float value) const {
     for_each_pixel([&](int x, int y) { plane.view().at(x, y) = value; });
   }
-
-  static constexpr double kRounded = 1.01;
 
   const Model& model_;
   const Scene& scene_;

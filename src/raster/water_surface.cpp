@@ -42,8 +42,21 @@ Model raised_water(const Model& model, const WaterPlane& water, double time) {
   return raised;
 }
 
-glm::dvec3 wave_normal(const WaterPlane& water, const glm::dvec3& point, double time) {
-  const PlaneAxes axes = plane_axes(water.up);
+bool is_level(const Model& model, const WaterPlane& water) {
+  const double most = 0.01 * highest_crest(water);
+  for (const Instance& instance : model.instances) {
+    if (!instance.water) continue;
+    for (const glm::vec3& position :
+         model.meshes[static_cast<std::size_t>(instance.mesh)].positions) {
+      const glm::dvec3 p(instance.world_from_mesh * glm::dvec4(position, 1));
+      if (std::abs(glm::dot(p, water.up) - water.height) > most) return false;
+    }
+  }
+  return true;
+}
+
+glm::dvec3 wave_normal(const WaterPlane& water, const PlaneAxes& axes, const glm::dvec3& point,
+                       double time) {
   const WaveHeight wave =
       wave_height(water.waves, glm::dot(point, axes.x), glm::dot(point, axes.y), time);
   return glm::normalize(water.up - wave.slope_x * axes.x - wave.slope_y * axes.y);
@@ -61,6 +74,7 @@ std::array<Plane, 3> surface_normals(const Plane& depth, const Camera& camera,
   const View<const float> z = depth.view();
   const Rays rays = rays_of(camera, {display.width(), display.height()});
   const glm::dvec3 eye = camera.eye();
+  const PlaneAxes axes = plane_axes(water.up);
   std::array<Plane, 3> normals{Plane(z.window), Plane(z.window), Plane(z.window)};
   run_each(executor, z.window.height(), [&](int row) {
     const int y = z.window.y0 + row;
@@ -68,7 +82,7 @@ std::array<Plane, 3> surface_normals(const Plane& depth, const Camera& camera,
       const double far = z.at(x, y), u = x - display.x0 + 0.5, v = y - display.y0 + 0.5;
       if (std::isinf(far)) continue;
       const glm::dvec3 point = eye + rays.origin_at(u, v) + far * rays.ray_at(u, v);
-      const glm::dvec3 normal = wave_normal(water, point, time);
+      const glm::dvec3 normal = wave_normal(water, axes, point, time);
       for (int c = 0; c < 3; ++c) {
         normals[static_cast<std::size_t>(c)].view().at(x, y) = static_cast<float>(normal[c]);
       }

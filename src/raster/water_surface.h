@@ -14,9 +14,13 @@ struct ShadowMap;
 /// Empty if the model has no water.
 Model raised_water(const Model& model, const WaterPlane& water, double time);
 
-/// Unit normal of the waves at a point in world space, out of the water. Exact between the vertices
-/// of raised_water, however far apart they are.
-glm::dvec3 wave_normal(const WaterPlane& water, const glm::dvec3& point, double time);
+/// Whether all water of a model lies in the calm plane, to a hundredth of its waves' height.
+bool is_level(const Model& model, const WaterPlane& water);
+
+/// Unit normal of the waves at a point in world space, out of the water; `axes` are those of the
+/// water. Exact between the vertices of raised_water, however far apart they are.
+glm::dvec3 wave_normal(const WaterPlane& water, const PlaneAxes& axes, const glm::dvec3& point,
+                       double time);
 
 /// The water surface seen by one camera, over a window of its display.
 struct SeenSurface {

@@ -157,6 +157,45 @@ TEST(AutoMirror, MirrorsACrownThatItsRaysPassCloseBehind) {
   EXPECT_GT(Crown(4).light_at(17), 6);
 }
 
+/// A black wall before a black sky, over a white bottom in clear water: waves that mirror all light
+/// show the bottom only where their rays meet other waves, which let some of it through.
+TEST(AutoMirror, LevelRaysMeetTheNextWaveUnlessSomethingStandsBeforeIt) {
+  const auto shown = [](double amplitude, double k, bool reflection) {
+    Mirror mirror;
+    for (const PlaneId id : {PlaneId::kColorR, PlaneId::kColorG, PlaneId::kColorB}) {
+      mirror.buffers.set(id, [&](int x, int y) { return mirror.wet(x, y) ? 1.0f : 0; });
+    }
+    if (reflection) {
+      for (int c = 0; c < 3; ++c) mirror.buffers.fill(plane_after(PlaneId::kReflectionR, c), 0);
+      mirror.buffers.set(PlaneId::kReflectionDepth, [&](int x, int y) {
+        return static_cast<float>(mirror.mirrored_depth(x, y));
+      });
+    }
+    mirror.look.of<FresnelReflection>().facets = FresnelReflection::Facets::kSpread;
+    WaveNormals::Params& waves = mirror.look.of<WaveNormals>();
+    waves.model = WaveNormals::Model::kSines;
+    waves.filter = WaveNormals::Filter::kVariance;
+    waves.strength = 1;
+    mirror.scene.water->waves = {{amplitude, 0, k, 0, 1}};
+    const test::Picture picture = mirror.pictures();
+    double most = 0;
+    constexpr int kFoot = 29;  // in the row above, lookups mix the wall and the bottom
+    for (int y = kFoot; y < Shore::kSize.height; ++y) {
+      for (int x = 0; x < Shore::kSize.width; ++x) {
+        if (mirror.wet(x, y)) most = std::max<double>(most, picture.color(x, y).r);
+      }
+    }
+    return most;
+  };
+  for (const bool reflection : {false, true}) {
+    EXPECT_GT(shown(0.03, 4, reflection), 0.05);
+    EXPECT_LT(shown(0.03, 4, reflection), 1);
+    EXPECT_LT(shown(1e-3, 4, reflection), 0.01);  // hardly any ray is so level
+    // Waves twice as long as the water: the wall comes before the next wave.
+    EXPECT_LT(shown(0.8, 0.15, reflection), 0.05);
+  }
+}
+
 // A far ridge that the facets of a pixel mirror in part: with the planes of a reflection the other
 // part mirrors the sky over it, as without them.
 TEST(AutoMirror, MirrorsTheSkyOverARidgeInTheReflectionAsInThePicture) {

@@ -56,6 +56,20 @@ PlateWaves waves_of(const Scene& scene, const Buffers& buffers) {
   return plate_waves_of(buffers.frame, Pass(scene, buffers.frame, 1.333, kWholeState));
 }
 
+TEST(PlateWaves, OfSinesAreThoseOfTheirNormals) {
+  const Scene scene = seen_in_parallel();
+  const std::vector<SineWave> waves{wave(0.03, 3, 1, 0.4), wave(0.02, -1, 4, 2)};
+  WaterView view(scene, rect_of(kSize), {.raises = true, .waves = waves, .scale = 0.5});
+  const PlateWaves of_sines = plate_waves_of_sines(view),
+                   found = waves_of(scene, bumped(scene, waves));
+  EXPECT_EQ(of_sines.raised, 1);
+  EXPECT_NEAR(4 * of_sines.variance.xx, found.variance.xx, 0.02 * found.variance.xx);
+  EXPECT_NEAR(4 * of_sines.variance.yy, found.variance.yy, 0.02 * found.variance.yy);
+  EXPECT_NEAR(of_sines.turn.xx, found.turn.xx, 0.05 * found.turn.xx);
+  EXPECT_NEAR(of_sines.turn.yy, found.turn.yy, 0.05 * found.turn.yy);
+  EXPECT_EQ(plate_waves_of_sines(WaterView(scene, rect_of(kSize))).variance.xx, 0);
+}
+
 TEST(PlateWaves, SayHowSinesLeanAndTurn) {
   const Scene scene = seen_in_parallel();
   const std::vector<SineWave> waves{wave(0.03, 3, 1, 0.4), wave(0.02, -1, 4, 2)};

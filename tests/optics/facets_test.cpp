@@ -109,5 +109,52 @@ TEST(Facets, AlongTheSurfaceLeanTowardsTheView) {
   EXPECT_NEAR(seen_facets(1e6).lean[1], std::sqrt(3.0), 1e-5);
 }
 
+/// Smith's function: the shadowed area over the visible one, by the slopes above the ray.
+double shadowed(double rise) {
+  double sum = 0;
+  for (double slope = rise; slope < rise + 12; slope += 1e-4) {
+    sum += 1e-4 * (slope - rise) * std::exp(-0.5 * slope * slope);
+  }
+  return sum / (std::sqrt(2 * M_PI) * rise);
+}
+
+TEST(NextMeeting, OfRaysIsThatOfMaskingAndShadowing) {
+  constexpr double kDeviation = 0.07;
+  for (const double a : {0.05, 0.3, 1.0, 2.0}) {
+    for (const double v : {0.05, 0.5, 2.5}) {
+      const double right = shadowed(a) / (1 + shadowed(v) + shadowed(a));
+      EXPECT_NEAR(next_meeting(a * kDeviation, v * kDeviation, kDeviation).share, right,
+                  1e-3 * right + 2e-5)
+          << a << " " << v;
+    }
+  }
+  for (const double below : {0.0, -1e-9, -0.02, -1.0}) {
+    EXPECT_EQ(next_meeting(below, 0.1, kDeviation).share, 1);
+  }
+  EXPECT_EQ(next_meeting(0.3, 0.1, kDeviation).share, 0);
+  EXPECT_NEAR(next_meeting(1e-7, 1e6, kDeviation).share, 1, 1e-5);
+}
+
+TEST(NextMeeting, MirrorsRaysUpByTheFacetsThatTheyMeet) {
+  constexpr double kDeviation = 0.07;
+  for (const double a : {-4.0, -1.0, 0.0, 0.5, 2.0}) {
+    const auto met = [&](double slope) { return std::max(slope - a, 0.0); };
+    const double right = counted([&](double slope) { return slope - a; }, met);
+    const NextMeeting<double> next = next_meeting(a * kDeviation, 0.1, kDeviation);
+    EXPECT_NEAR(next.sine, kDeviation * right, 0.015 * kDeviation * right) << a;
+    EXPECT_NEAR(next.rise, kDeviation * (a + 2 * right), 0.03 * kDeviation * right) << a;
+    EXPECT_GT(next.rise, 0);
+  }
+  // Of calm water, and at its limits.
+  for (const double rise : {-1e6, -1.0, 0.0, 1.0, 1e6}) {
+    for (const double deviation : {1e-3, 1.0, 1e3}) {
+      const NextMeeting<double> next = next_meeting(rise, 0.0, deviation);
+      EXPECT_TRUE(next.share >= 0 && next.share <= 1) << rise << " " << deviation;
+      EXPECT_TRUE(next.rise >= 0 && std::isfinite(next.rise)) << rise << " " << deviation;
+      EXPECT_TRUE(next.sine >= 0 && next.sine <= 1) << rise << " " << deviation;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace limpid

@@ -45,8 +45,11 @@ namespace limpid {
 /// `facets` `spread` averages reflectance times mirrored light over the slopes that the pixel does
 /// not resolve (slope_variance), by three facets along the view (optics/facets.h); on a raised
 /// surface over the visible slopes. A facet whose mirrored ray would go into the water is tilted
-/// until the ray is parallel to it. A variance along the view below 1e-4 counts as none. `mean`:
-/// the mean normal only.
+/// until the ray is parallel to it. A variance along the view below 1e-4 counts as none. Where
+/// waves of known slopes raise the surface and rays are marched (`auto`), rays that rise less than
+/// these slopes meet other waves, unless an object stands before them: these waves mirror a part of
+/// them further up, and let light from the water pass instead of the rest (next_meeting() in
+/// optics/facets.h). `mean`: the mean normal only.
 ///
 /// The planar lookup, by `lookup`: `offset` at uv + strength * tilt, clamped at the edge. `ray`: at
 /// the end of the mirrored ray in the mirrored scene, where the planes show it. Its distance comes

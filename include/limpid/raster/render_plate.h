@@ -37,8 +37,8 @@ struct RenderedPlate {
 /// The layer below: geometry under the calm plane, or under the highest crest of waves, by a clip
 /// plane there. Depth and normals of the surface where water meshes are seen, displaced by
 /// scene.water.waves, from either side, and the sun's visibility there. They are those of the waves
-/// themselves, however far apart a mesh's vertices are, unless the mesh lies higher or lower than
-/// waves on the calm plane would be. Without a water mesh depth and normals stay empty, as the
+/// themselves between a mesh's vertices, too, if all water meshes lie in the calm plane; else the
+/// depth is that of the raised mesh. Without a water mesh depth and normals stay empty, as the
 /// chain derives them from the calm plane, and the shadow is that on the calm plane. Without a sun
 /// there is ambient light only, and neither direct sunlight nor a surface shadow.
 ///

@@ -41,6 +41,7 @@ struct Known {
   }
 
   Subject subject;
+  PlaneSet always;  ///< that every row brings
   ColorViews truth;
   std::vector<Place> places;
   double wave_length = 0;
@@ -73,7 +74,7 @@ class ByBrought {
   void measure(bool figures) {
     if (figures) show("truth", "path-traced with the water", known_.truth);
     for (const Look& look : looks_) {
-      for (const Brought& step : brought_one_by_one(known_.subject.planes()))
+      for (const Brought& step : brought_one_by_one(known_.subject.planes() - known_.always))
         runs_.push_back({look, step});
     }
     for (Run& run : runs_) judge(run, figures);
@@ -96,7 +97,7 @@ class ByBrought {
   }
 
   void judge(Run& run, bool figures) {
-    known_.subject.bring(run.step.all);
+    known_.subject.bring(run.step.all | known_.always);
     run.plan = known_.subject.plan(run.look);
     run.frame = known_.subject.frame_for(run.plan);
     this->run(run, m_.many);
@@ -209,6 +210,8 @@ void measure_brought_lagoon(const Measuring& m) {
   Known known(Subject::of_plate(folder / "lagoon.toml", kWhole));
   Subject& subject = known.subject;
   subject.make_waves(Lagoon::waves());
+  // In the truth these waves tilt a flat plane. Without its depth they would raise the water.
+  known.always = {PlaneId::kSurfaceDepth};
   const Rect window = subject.window();
   std::array<Plane, 3> truth{Plane(window), Plane(window), Plane(window)};
   ExrFile::open(folder / "truth_waves.exr")

@@ -39,6 +39,7 @@ Surface::Surface(const Model& model, const Scene& scene, const Look& look, const
                  const Pass& pass)
     : pass_(pass),
       water_(*scene.water),
+      axes_(plane_axes(scene.water->up)),
       time_(scene.time),
       waves_(unfiltered(look.of<WaveNormals>())),
       wavy_(makes_waves(waves_, wave_map)),
@@ -70,7 +71,7 @@ std::optional<SurfacePoint> Surface::nearest(const Ray& ray, bool from_air) cons
     if (!hit) return std::nullopt;
     found = {hit->distance, hit->point, hit->front, {}};
     found.normal =
-        raised_ ? wave_normal(water_, hit->point + pass_.eye, time_) : normal_at(hit->point);
+        raised_ ? wave_normal(water_, axes_, hit->point + pass_.eye, time_) : normal_at(hit->point);
   } else {
     const double sinks = -glm::dot(ray.direction, pass_.up);
     if (!(from_air ? sinks > 0 : sinks < 0)) return std::nullopt;

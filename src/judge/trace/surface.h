@@ -41,6 +41,7 @@ class Surface {
 
   const Pass& pass_;
   const WaterPlane& water_;
+  const PlaneAxes axes_;
   double time_;
   const WaveNormals::Params waves_;
   bool wavy_;  ///< from the operator wave_normals

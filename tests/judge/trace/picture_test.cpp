@@ -64,9 +64,11 @@ TEST(TracedPicture, WavesAreThoseOfTheSceneOnAMeshOfTwoTriangles) {
   const Scene scene = wavy_scene();
   const TruthPicture p = traced(model, scene, Look{}, every_aov());
   const Rays rays = rays_of(*scene.camera, {kTraceSize.width, kTraceSize.height});
+  int wet = 0;
   for_each_pixel(kTraceSize, [&](int x, int y) {
     const double depth = value(p, Aov::kSurfaceDepth, x, y, 0);
     if (!std::isfinite(depth)) return;
+    ++wet;
     const glm::dvec3 at = scene.camera->eye() + depth * rays.ray_at(x + 0.5, y + 0.5);
     const PlaneAxes axes = plane_axes(scene.water->up);
     const WaveHeight wave =
@@ -76,6 +78,7 @@ TEST(TracedPicture, WavesAreThoseOfTheSceneOnAMeshOfTwoTriangles) {
         glm::normalize(scene.water->up - wave.slope_x * axes.x - wave.slope_y * axes.y);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(value(p, Aov::kNormal, x, y, c), normal[c], 1e-4);
   });
+  EXPECT_GT(wet, 100);
 }
 
 TEST(TracedPicture, TermsSumToThePicture) {
