@@ -25,7 +25,7 @@ namespace limpid {
 namespace {
 
 static_assert(LIMPID_BASIN + 1 == kPlaneCount);
-static_assert(LIMPID_OUT_SKY + 3 == 4 + 3 * kAovCount);
+static_assert(LIMPID_OUT_SURFACE_SHADOW + 3 == 4 + 3 * kAovCount);
 
 /// Copies the first `size` bytes of the caller's struct; the rest is 0.
 template <class Struct>

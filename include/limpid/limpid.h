@@ -116,7 +116,8 @@ typedef enum limpid_output {
   LIMPID_OUT_MIRROR_SOURCES = 43,
   LIMPID_OUT_REFLECTION_DEPTH = 46,
   LIMPID_OUT_REFLECTION_VALID = 49,
-  LIMPID_OUT_SKY = 52
+  LIMPID_OUT_SKY = 52,
+  LIMPID_OUT_SURFACE_SHADOW = 55
 } limpid_output;
 
 /** One channel in the host's memory. `data` points at the sample of the first pixel of the window.

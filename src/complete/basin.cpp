@@ -112,7 +112,7 @@ Basin::Walls Basin::walls_around(int x, int y) const {
   return walls;
 }
 
-Basin::Floor Basin::floor_around(int x, int y, const View<const float>& shadow) const {
+Basin::Floor Basin::floor_around(int x, int y, const Lit& lit) const {
   Floor floor;
   const auto bottom = place_of(x, y);
   if (!bottom) return floor;
@@ -124,9 +124,8 @@ Basin::Floor Basin::floor_around(int x, int y, const View<const float>& shadow) 
       if (!sight) break;
       if (!(level_size(sight->off, c_.up) < kNear * drop)) continue;
       if (!(drop_of(bottom->at + by + sight->off, c_) > 0)) break;  // the shore
-      const Rect& window = shadow.window;
-      if (!window.contains(Rect{sight->x, sight->y, sight->x + 1, sight->y + 1})) continue;
-      floor.seen[ring] += 1, floor.sunlit[ring] += shadow.at(sight->x, sight->y);
+      const std::optional<float> there = lit(sight->x, sight->y);
+      if (there) floor.seen[ring] += 1, floor.sunlit[ring] += *there;
     }
   }
   return floor;

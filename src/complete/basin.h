@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #include <glm/vec2.hpp>
@@ -35,8 +36,10 @@ class Basin {
   /// The walls around the point under water that a pixel shows. A wall rises out of the water
   /// steeper than 45 degrees; outside the picture there is water.
   Walls walls_around(int x, int y) const;
-  /// The bottom around that point, lit by the `shadow` of the dry picture.
-  Floor floor_around(int x, int y, const View<const float>& shadow) const;
+  /// The lit fraction of a pixel of the dry picture, if it is known.
+  using Lit = std::function<std::optional<float>(int x, int y)>;
+  /// The bottom around that point, where its light is known.
+  Floor floor_around(int x, int y, const Lit& lit) const;
 
   /// Without scattering. `depth`: optical depth of the bottom; `ior`: index of the water.
   static Reflected reflected(double depth, double ior);

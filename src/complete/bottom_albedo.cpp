@@ -9,6 +9,7 @@
 #include "complete/basin.h"
 #include "complete/row_heights.h"
 #include "complete/rows.h"
+#include "complete/sun_sight.h"
 
 namespace limpid {
 namespace {
@@ -64,8 +65,10 @@ void BottomAlbedo::gather(const Frame& frame, const Pass& c, const Rgb<double>& 
   const double pixels = glm::length(c.to_u) * c.size.x;  // pixels per unit of length at w = 1
   Cell* cells = cells_.data() + static_cast<std::size_t>(row) * columns_;
   std::fill_n(cells, columns_, Cell{});
+  for (int column = 0; column < columns_; ++column) cells[column][kLit] = 1;
   const int begin = window.y0 + row * cell_;
   const int step = cell_ / kSamples;
+  if (!shadow && rise > 0) look_for_shade(depth, c, window, row);
   for (int y = begin; y < std::min(begin + cell_, window.y1); y += step) {
     const RowHeights heights(c, y);
     for (int x = window.x0; x < window.x1; x += step) {
@@ -73,7 +76,7 @@ void BottomAlbedo::gather(const Frame& frame, const Pass& c, const Rgb<double>& 
       const double under = -heights.at(x, far);
       if (!(far > 0 && far < 1e30 && under > 0)) continue;
       Cell& cell = cells[(x - window.x0) / cell_];
-      const float lit = shadow ? shadow.at(x, y) : 1;
+      const float lit = shadow ? shadow.at(x, y) : cell[kLit];
       for (int i = 0; i < 3; ++i) {
         const std::size_t k = static_cast<std::size_t>(i);
         cell[kColor + k] += frame.plane(plane_after(PlaneId::kColorR, i)).at(x, y);
@@ -87,12 +90,37 @@ void BottomAlbedo::gather(const Frame& frame, const Pass& c, const Rgb<double>& 
   }
 }
 
+/// Without a shadow plane: whether the picture shows what shades the texel in the middle of each
+/// cell of a row.
+void BottomAlbedo::look_for_shade(const View<const float>& depth, const Pass& c, const Rect& window,
+                                  int row) {
+  const SunSight sight(depth, c);
+  const int y = std::min(window.y0 + row * cell_ + cell_ / 2, window.y1 - 1);
+  const RowHeights heights(c, y);
+  for (int column = 0; column < columns_; ++column) {
+    const int x = std::min(window.x0 + column * cell_ + cell_ / 2, window.x1 - 1);
+    const double far = depth.at(x, y);
+    if (!(far > 0 && far < 1e30 && heights.at(x, far) < 0)) continue;
+    const double hidden = sight.hidden_from_surface(x, y);
+    cells_[static_cast<std::size_t>(row) * columns_ + column][kLit] =
+        static_cast<float>(1 - hidden);
+  }
+}
+
 /// Searches walls for a row of blocks, each by the texel in its middle.
 void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const WaterOver& water,
                                   int row) {
   const Rect window = window_of(frame);
   const Basin basin(frame, c);
   const double share = share_in_air(c);
+  const View<const float>& shadow = frame.plane(PlaneId::kShadow);
+  const auto lit = [&](int at_x, int at_y) -> std::optional<float> {
+    if (!(shadow ? shadow.window : window).contains(Rect{at_x, at_y, at_x + 1, at_y + 1}))
+      return {};
+    if (shadow) return shadow.at(at_x, at_y);
+    const int cell = (at_y - window.y0) / cell_ * columns_ + (at_x - window.x0) / cell_;
+    return cells_[static_cast<std::size_t>(cell)][kLit];
+  };
   const int pixels = kBlock * cell_;
   const int y = std::min(window.y0 + row * pixels + pixels / 2, window.y1 - 1);
   const RowHeights heights(c, y);
@@ -101,7 +129,7 @@ void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const Water
     const double far = frame.plane(PlaneId::kDepth).at(x, y), drop = -heights.at(x, far);
     if (!(far > 0 && far < 1e30 && drop > 0)) continue;
     const Basin::Walls walls = basin.walls_around(x, y);
-    const Basin::Floor floor = basin.floor_around(x, y, frame.plane(PlaneId::kShadow));
+    const Basin::Floor floor = basin.floor_around(x, y, lit);
     const std::array<double, 3> rates{water.rate.r, water.rate.g, water.rate.b};
     for (std::size_t i = 0; i < 3; ++i) {
       const Basin::Reflected light = Basin::reflected(rates[i] * drop, c.ior);
@@ -235,8 +263,7 @@ void BottomAlbedo::make(const Frame& frame, const Pass& pass, const Rgb<double>&
   rows_ = (window.height() + cell_ - 1) / cell_;
   cells_.resize(static_cast<std::size_t>(columns_) * rows_);
   each_row(executor, {0, 0, 1, rows_}, [&](int row) { gather(frame, pass, sky, row); });
-  // Without a shadow what lies in the shade counts as dark, which takes more away than walls do.
-  if (share_in_air(pass) > 0 && frame.plane(PlaneId::kShadow)) {
+  if (share_in_air(pass) > 0 && (frame.plane(PlaneId::kShadow) || pass.has_sun)) {
     run_each(executor, (rows_ + kBlock - 1) / kBlock,
              [&](int row) { look_for_walls(frame, pass, water, row); });
   }

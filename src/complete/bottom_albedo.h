@@ -20,8 +20,9 @@ struct WaterOver {
 
 /// The albedo of surfaces under the calm water, smoothed: their radiance in the dry picture over
 /// that of a white level floor in the same light, sun (where `shadow` lets it) and sky, each summed
-/// over about two depths of water around. Ratios of sums are right in shadows and stay below 1 on
-/// walls; ratios of single pixels do not.
+/// over about two depths of water around. Without `shadow` the depth plane is searched for what
+/// hides the sun from the texel in the middle of each cell. Ratios of sums are right in shadows and
+/// stay below 1 on walls; ratios of single pixels do not.
 ///
 /// In a narrow basin an endless floor of the same brightness has less: basin() is its share of the
 /// albedo. Part of the light that the surface reflects down comes from walls there (Basin), which
@@ -53,10 +54,13 @@ class BottomAlbedo {
     kShade = 9,
     kDrop = 12,
     kCount,
-    kReach
+    kReach,
+    kLit  ///< no sum: lit fraction, without a shadow plane
   };
-  using Cell = std::array<float, 16>;  ///< one more, for whole vectors
+  using Cell = std::array<float, 16>;
   void gather(const Frame& frame, const Pass& pass, const Rgb<double>& sky, int row);
+  void look_for_shade(const View<const float>& depth, const Pass& pass, const Rect& window,
+                      int row);
   void look_for_walls(const Frame& frame, const Pass& pass, const WaterOver& water, int row);
   int reach() const;
   static float as_of_level(float albedo, const Cell& sums, std::size_t channel, double sun,

@@ -45,6 +45,10 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   }
   complete_surface(made_by("displaced_surface", plan, frame), pass, executor, simd, whole);
   if (plan.look.water.edges == Water::Edges::kMixed) edges_.make(whole, pass, executor);
+  if (const PlaneSet made = made_by("surface_shadow", plan, frame); !made.empty()) {
+    surface_shadow_.make(whole, pass, executor);
+    take(made, PlaneId::kSurfaceShadow, surface_shadow_.plane(), whole);
+  }
   if (const PlaneSet made = made_by("mirror_depth", plan, frame); !made.empty()) {
     mirror_depth_.make(whole, pass, executor);
     take(made, PlaneId::kReflectionDepth, mirror_depth_.depth(), whole);
@@ -61,6 +65,8 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   if (!plan.made.has(StatePart::kPosition)) return whole;
   if (refraction.continues_bottom()) whole.continuation = continuation_maker_.make(whole, pass);
   const Caustics::Params& caustics = plan.look.of<Caustics>();
+  // A host may pass more planes than the plan reads; jobs do not read those.
+  const PlaneSet read = plan.planes | plan.completed;
   Pass now = pass;
   now.planes = whole.present();
   now.wave_variance = whole.wave_variance;
@@ -73,7 +79,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
   }
   if (refraction.uses_bottom_layer()) {
     const bool shades = plan.keeps<Caustics>() &&
-                        Kernel<Caustics>::knows_entries(caustics, pass, now.planes & plan.planes);
+                        Kernel<Caustics>::knows_entries(caustics, pass, now.planes & read);
     whole.bottom_layer =
         bottom_layer_.make(whole, pass, shades ? sun_over_rest : std::array<double, 3>{}, executor);
   }
@@ -91,6 +97,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
       light_ = *caustics_.make(focuses ? waves : nullptr, scattering, whole, now, executor, simd);
       light_.sun_over_rest = sun_over_rest;
       light_.slopes = has_fine_depth(frame) ? 1 : 0;  // completed depths are always fine
+      light_.under_land = (frame.present() & plan.planes).has(PlaneId::kSurfaceDepth) ? 0 : 1;
     }
     if (shafts) {
       light_.in_water = shafts_.make(waves, scattering, whole, now, executor, simd,
@@ -98,8 +105,7 @@ Frame Completer::complete(const Plan& plan, const Frame& frame, const Pass& pass
     }
     whole.caustics = &light_;
     if (plan.keeps<Caustics>() && plan.keeps<FresnelReflection>()) {
-      // A host may pass more planes than the plan reads; jobs do not read those.
-      if (!plan.planes.has(PlaneId::kSurfaceShadow)) {
+      if (!read.has(PlaneId::kSurfaceShadow)) {
         now.planes = now.planes - PlaneSet{PlaneId::kSurfaceShadow};
       }
       mirrored_caustics_.light(caustics, light_, now, executor, whole);

@@ -23,6 +23,7 @@
 #include "complete/sky.h"
 #include "complete/slope_map.h"
 #include "complete/sun_share.h"
+#include "complete/surface_shadow.h"
 #include "op/pass.h"
 
 namespace limpid {
@@ -69,6 +70,7 @@ class Completer {
   ContinuationMaker continuation_maker_;
   BottomLayerMaker bottom_layer_;
   DisplacedSurface displaced_surface_;
+  SurfaceShadow surface_shadow_;
   Edges edges_;
   EdgeSurfacesMaker edge_surfaces_;
   PartDepths part_depths_;

@@ -206,7 +206,7 @@ class Channel {
   /// What the fits say of a layer: its scattered light in one direction, and the light of the
   /// whitest bottom.
   struct Fitted {
-    double sun, sky, bottom_sun, bottom_sky;
+    double sun, sky, bottom_sun, bottom_sky, bottom;  ///< bottom: in light of irradiance pi
   };
   Fitted fitted(double depth, std::size_t direction, int a) const {
     const double cosine = directions_.cosine[direction], x = layer_variable(depth);
@@ -219,7 +219,7 @@ class Channel {
         (1 - left * fallen) * layer_power(light_.sun, shapes(cosine, turned_of(direction, a)), x),
         layer_power(light_.sky, even, x),
         through * (beam_ * fallen + layer_power(light_.sun_below, x)),
-        through * (light_.sky_at_once + layer_power(light_.sky_below, x))};
+        through * (light_.sky_at_once + layer_power(light_.sky_below, x)), through};
   }
 
   /// Of the fits, at several depths from each layer to the next.
@@ -229,7 +229,7 @@ class Channel {
     const auto& layers = even_layers();
     const std::size_t last = layers.size() - 1;
     for (std::size_t k = last + 1; k-- > 0;) {
-      double sun_off = 0, sky_off = 0;
+      double sun_off = 0, sky_off = 0, bottom = 0;
       each_view([&](std::size_t i, int a) {
         const Fitted endless = fitted(kEndless, i, a);
         for (int part = 0; part < kParts; ++part) {
@@ -241,6 +241,7 @@ class Channel {
           light_.slope_sky = std::max(light_.slope_sky, here.sky / depth);
           light_.most_bottom_sun = std::max(light_.most_bottom_sun, here.bottom_sun);
           light_.most_bottom_sky = std::max(light_.most_bottom_sky, here.bottom_sky);
+          bottom = std::max(bottom, here.bottom);
           sun_off =
               std::max(sun_off, std::abs(here.sun - endless.sun) + std::max(here.bottom_sun, 0.0));
           sky_off =
@@ -249,6 +250,7 @@ class Channel {
       });
       const double deeper_sun = k < last ? light_.beyond_sun[k + 1] : 0;
       const double deeper_sky = k < last ? light_.beyond_sky[k + 1] : 0;
+      light_.beyond_bottom[k] = std::max(k < last ? light_.beyond_bottom[k + 1] : 0, bottom);
       light_.beyond_sun[k] = std::max(deeper_sun, sun_off);
       light_.beyond_sky[k] = std::max(deeper_sky, sky_off);
     }

@@ -11,6 +11,7 @@
 #include "limpid/core/error.h"
 
 #include "complete/caustics.h"
+#include "complete/row_heights.h"
 #include "complete/sky.h"
 #include "core/toml_text.h"
 #include "op/raised_water.h"
@@ -215,6 +216,35 @@ void warn_of_scale(const Plan& plan, const Frame& frame, const Pass& c,
   }
 }
 
+/// A plate's own surface is better than one that limpid raises, unless it has no waves.
+void warn_of_level_surface(const Plan& plan, const Frame& frame, const Pass& c,
+                           std::vector<std::string>& warnings) {
+  const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
+  const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
+  if (waves.model != WaveNormals::Model::kSines || !plan.made.has(StatePart::kNormal)) return;
+  if (!surface || !plan.planes.has(PlaneId::kSurfaceDepth)) return;
+  double crest = 0, highest = 0;
+  for (const SineWave& wave : waves.waves.empty() ? c.waves : waves.waves) {
+    crest = std::max(crest, waves.strength * std::abs(wave.amplitude));
+  }
+  const Rect work = frame.work();
+  const int step = std::clamp(std::min(work.width(), work.height()) / 64, 1, kCoarse);
+  bool seen = false;
+  for (int y = work.y0; y < work.y1; y += step) {
+    const RowHeights heights(c, y);
+    for (int x = work.x0; x < work.x1; x += step) {
+      const double depth = surface.at(x, y);
+      if (!(depth > 0 && depth < 1e30)) continue;
+      seen = true;
+      highest = std::max(highest, std::abs(heights.at(x, depth)));
+    }
+  }
+  if (!seen || highest > 0.25 * crest) return;
+  warnings.emplace_back(
+      "the surface_depth is level: the waves tilt the water, but do not raise it; expected a "
+      "surface_depth with the waves, or none (--layer surface_depth=none)");
+}
+
 void warn_of_waves(const Plan& plan, const Scene& scene, std::vector<std::string>& warnings) {
   const WaveNormals::Params& waves = plan.look.of<WaveNormals>();
   const bool from_map =
@@ -303,6 +333,7 @@ void warn_of_picture(const Plan& plan, const Frame& frame, const Scene& scene,
   warn_of_sun(plan, frame, pass, warnings);
   warn_of_glint(plan, frame, pass, warnings);
   warn_of_scale(plan, frame, pass, warnings);
+  warn_of_level_surface(plan, frame, pass, warnings);
   warn_of_waves(plan, scene, warnings);
   warn_of_light(plan, frame, pass, warnings);
   warn_of_slopes(plan, frame, warnings);

@@ -22,6 +22,7 @@ namespace limpid {
 ///   is in the picture.
 /// - A period of the tiling waves is smaller than two of the nearest water's pixels, or so large
 ///   that the whole picture shows a hundredth of it; or waves are higher than the camera.
+/// - Sines are to raise the water, but the plate has a level surface.
 /// - Caustics use the frame's own normals: the light of a tenth of the bottom or more enters where
 ///   the frame has none.
 /// - Sunlight on slopes is to be refracted, but all eye depths have half precision.

@@ -29,7 +29,8 @@ struct CausticsTable {
   double scale = 1;  ///< width of a texel over caustics_texel()
   /// On sunlit bottoms: the sun's light over all other light, for frames with shadow; else 0.
   std::array<double, 3> sun_over_rest{};
-  double slopes = 0;  ///< 1 if the depth is fine enough to tell the slope of the bottom
+  double slopes = 0;      ///< 1 if the depth is fine enough to tell the slope of the bottom
+  double under_land = 0;  ///< 1 if the surface goes on under land, as calm and completed ones do
   /// Share of the focused light that the water scatters, and so spreads, per unit of depth, of red,
   /// green, blue.
   std::array<double, 3> scattered{};

@@ -26,6 +26,9 @@ struct Kernel<Caustics> : MovedSunlight {
     if (p.sunlight == Sunlight::kStraight) return p.strength == 0 ? PlaneSet{} : lit;
     return lit | PlaneSet{PlaneId::kSurfaceShadow, PlaneId::kSurfaceDepth};
   }
+  static PlaneSet wants(const Params& p, const AtHand&) {
+    return p.sunlight == Sunlight::kRefracted ? PlaneSet{PlaneId::kSurfaceShadow} : PlaneSet{};
+  }
   static Needs needs(const Params&) { return {.planes = {}, .sun = true}; }
   /// The place that refraction looked up, and the entry point of sunlight.
   static double reach(const Params& p) { return p.sunlight == Sunlight::kRefracted ? HUGE_VAL : 0; }

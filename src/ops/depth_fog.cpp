@@ -267,8 +267,14 @@ double Kernel<DepthFog>::beyond_multiple(const WaterMedium& m, double depth) {
     const double layers = std::log2(m.rates()[i] * depth / ScatteredLight::kFirstLayer);
     if (!(layers >= 0)) return HUGE_VAL;
     const auto layer = static_cast<std::size_t>(std::min(layers, ScatteredLight::kLayers - 1.0));
-    most = std::max(most, m.water * (m.beams()[i] * m.multiple[i].beyond_sun[layer] +
-                                     m.skies()[i] * m.multiple[i].beyond_sky[layer]));
+    const ScatteredLight& light = m.multiple[i];
+    // Sunlight may fall with less loss than the layers say.
+    const double down = std::array{m.down.r, m.down.g, m.down.b}[i];
+    const double cosine = std::max(m.cosine, 0.02);
+    const double fallen = down < m.rates()[i] / cosine ? m.cosine * std::exp(-down * depth) : 0;
+    most = std::max(most, m.water * (m.beams()[i] * (light.beyond_sun[layer] +
+                                                     fallen * light.beyond_bottom[layer]) +
+                                     m.skies()[i] * light.beyond_sky[layer]));
   }
   return most;
 }

@@ -21,9 +21,9 @@ struct Kernel<DepthFog> : DepthFog {
     if (!wants_scattered_light(p)) return {};
     return kAlbedoPlanes | PlaneSet{PlaneId::kBasin, PlaneId::kDepth, PlaneId::kShadow};
   }
-  /// A given albedo is taken as it is, and without a shadow no wall is searched.
+  /// A given albedo is taken as it is.
   static PlaneSet wants(const Params& p, const AtHand& has) {
-    const bool estimates = !has.planes.covers(kAlbedoPlanes) && has.planes.has(PlaneId::kShadow);
+    const bool estimates = !has.planes.covers(kAlbedoPlanes);
     return estimates ? reads(p) : reads(p) - PlaneSet{PlaneId::kBasin};
   }
   static Needs needs(const Params&) { return {}; }

@@ -52,6 +52,7 @@ struct MovedSunlight : Caustics {
     // The share of sunlight that passes the surface at a place, and whether it is known.
     struct Entry {
       F passes, known;
+      F least;  ///< of the texels around, where `passes` is filtered
     };
     const auto point_at = [&](Vec2<F> at) {
       return at.x * map_x + at.y * map_y - given<F>(c.eye_above) * up;
@@ -60,20 +61,31 @@ struct MovedSunlight : Caustics {
       const Vec3<F> point = point_at(at);
       const ScreenRay<F> ray(c, p, point - p.surface_point);
       const Vec2<F> shift = ray.shift_at(F(1));
-      Entry found{bilinear<F>(tap, PlaneId::kSurfaceShadow, shift), known_at(c, p, shift)};
-      if (c.planes.has(PlaneId::kSurfaceDepth)) {
-        // No light enters where there is no water. Over a low camera, a wave in front hides the
-        // place: the plane shows the shadow on that wave, which must be much nearer to the place
-        // than shadows move.
-        const F seen = tap.nearest(PlaneId::kSurfaceDepth, shift);
-        const F off = abs(min(seen, F(1e30)) - ray.depth_at(F(1)));
-        const F shown = saturate(F(1.5) - F(2) * off / max(moved_by, F(1e-6)));
-        found.passes = select(nothing(seen), F(0), found.passes);
-        F land(1);
-        if_any(nothing(seen) && land_counts,
-               [&] { land = is_land(c, p, tap, point, ray, shift, moved_by); });
-        found.known = found.known * select(nothing(seen), land, shown);
+      const auto quad = tap.quad(shift);
+      const Four<F> lit_around = tap.read(PlaneId::kSurfaceShadow, quad);
+      Entry found{F(0), known_at(c, p, shift), lit_around[0]};
+      for (int k = 0; k < 4; ++k) {
+        found.passes = found.passes + quad.weight(k) * lit_around[k];
+        found.least = min(found.least, lit_around[k]);
       }
+      // No light enters where there is no water, nor under land. Over a low camera, a wave in front
+      // hides the place: the plane shows the shadow on that wave, which must be much nearer to the
+      // place than shadows move.
+      const F own = ray.depth_at(F(1));
+      const bool surface = c.planes.has(PlaneId::kSurfaceDepth);
+      const F seen = surface ? tap.nearest(PlaneId::kSurfaceDepth, shift) : own;
+      const F off = abs(min(seen, F(1e30)) - own);
+      const F shown = saturate(F(1.5) - F(2) * off / max(moved_by, F(1e-6)));
+      const auto none = nothing(seen);
+      const auto covered = given<F>(c.caustics->under_land, "caustics.under_land") > F(0) &&
+                           tap.nearest(PlaneId::kDepth, shift) < F(kSameDepth) * own;
+      F land = select(none, F(1), F(0));
+      const auto asks = (none || covered) && land_counts;
+      if_any(asks,
+             [&] { land = select(asks, is_land(c, p, tap, point, ray, shift, moved_by), land); });
+      const auto closed = none || land > F(0.5);
+      found.passes = select(closed, F(0), found.passes);
+      found.known = found.known * select(closed, land, shown);
       return found;
     };
     const Entry refracted = entry_at(entry, F(0) < F(1));
@@ -83,8 +95,8 @@ struct MovedSunlight : Caustics {
     const auto shaded = lit < F(1 - 1e-6) && !hidden;
     if_any(shaded || hidden, [&] {
       const Entry straight = entry_at(level, hidden);
-      const F cast =
-          select(straight.passes > F(0.05), min(lit / max(straight.passes, F(0.05)), F(1)), F(1));
+      const auto unexplained = straight.passes > F(0.05) && lit < straight.least - F(1e-3);
+      const F cast = select(unexplained, min(lit / max(straight.passes, F(0.05)), F(1)), F(1));
       below = select(shaded, F(1) + straight.known * (cast - F(1)), F(1));
       known = select(hidden, straight.known * known, known);
       dry = select(hidden, F(1) + known * (straight.passes - F(1)), dry);

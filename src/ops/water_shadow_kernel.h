@@ -18,6 +18,9 @@ struct Kernel<WaterShadow> : WaterShadow {
     const PlaneSet shadows{PlaneId::kShadow, PlaneId::kSurfaceShadow};
     return p.strength > 0 ? shadows | PlaneSet{PlaneId::kDepth} : shadows;
   }
+  static PlaneSet wants(const Params& p, const AtHand&) {
+    return p.model == Model::kScatter ? PlaneSet{PlaneId::kSurfaceShadow} : PlaneSet{};
+  }
   static Needs needs(const Params& p) {
     const bool scatters = p.model == Model::kScatter;
     return {.planes = scatters ? PlaneSet{} : PlaneSet{PlaneId::kShadow}, .sun = scatters};

@@ -100,6 +100,8 @@ struct ScatteredLight {
   static constexpr int kLayers = 20;
   static constexpr double kFirstLayer = 1.0 / 64;
   std::array<double, kLayers> beyond_sun{}, beyond_sky{};
+  /// Largest radiance there of a bottom of albedo kMaxAlbedo that light of irradiance pi falls on.
+  std::array<double, kLayers> beyond_bottom{};
 };
 
 /// Of red, green and blue.

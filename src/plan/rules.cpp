@@ -121,7 +121,8 @@ void complete_planes(Plan& plan, const Inputs& inputs) {
       const PlaneSet made = (makes - inputs.planes) | (makes & completer.corrects);
       if (made.empty() || !inputs.planes.covers(completer.inputs)) continue;
       plan.completed = plan.completed | made;
-      add_reason(op, std::string(completer.name) + " is computed");
+      const bool corrects = inputs.planes.covers(made);
+      add_reason(op, std::string(completer.name) + (corrects ? " is corrected" : " is computed"));
     }
   });
 }

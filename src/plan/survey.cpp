@@ -114,7 +114,9 @@ struct __attribute__((visibility("hidden"))) Survey::Scan {
     return pass.rays.ray_at(x - pass.corner.x, y - pass.corner.y);
   }
 
-  bool sees_own_shadow() const { return frame.plane(own_shadow) && plan.planes.has(own_shadow); }
+  bool sees_own_shadow() const {
+    return frame.plane(own_shadow) && (plan.planes | plan.completed).has(own_shadow);
+  }
 
   void choose_planes();
   void lay_out();

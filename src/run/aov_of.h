@@ -47,6 +47,7 @@ LIMPID_INLINE Vec3<F> aov_of(const Pixel<F>& p, Aov aov) {
     case Aov::kReflectionDepth:
     case Aov::kReflectionValid:
     case Aov::kSky:
+    case Aov::kSurfaceShadow:
       break;  // written by show_planes()
   }
   return {F(0), F(0), F(0)};

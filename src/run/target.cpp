@@ -119,6 +119,15 @@ constexpr AovInfo kAovs[kAovCount] = {
      "the reflected sky, from the plate or computed; 0 where it is not read",
      kSkyPlanes,
      true},
+    {"surface_shadow",
+     "Y",
+     {},
+     1,
+     Storage::kHalf,
+     Filter::kMean,
+     "lit share of the water's surface, from the plate or computed; 1 where it is not read",
+     {PlaneId::kSurfaceShadow},
+     true},
 };
 
 }  // namespace

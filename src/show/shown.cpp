@@ -124,6 +124,7 @@ Shown shown_aov(Aov aov, const std::array<View<float>, 3>& views, const DisplayT
     case Aov::kStmapB:
     case Aov::kMirrorSources:
     case Aov::kReflectionValid:
+    case Aov::kSurfaceShadow:
       break;
   }
   return shown_share(views, executor);

@@ -77,13 +77,12 @@ template <class Lit>
 double sunlit(Lit&& lit, double depth = 0) {
   test::Tray tray(kSize);
   tray.buffers.fill(PlaneId::kDepth, kWater + 4);
-  tray.buffers.set(PlaneId::kShadow, [&](int column, int row) {
-    return static_cast<float>(lit(column - 40, row - 40));
-  });
   const Pass pass(tray.scene, tray.buffers.frame, 1.333, {});
   const Basin basin(tray.buffers.frame, pass);
-  return Basin::share_sunlit(basin.floor_around(40, 40, tray.buffers.frame.plane(PlaneId::kShadow)),
-                             Basin::reflected(depth, 1.333));
+  const auto lit_at = [&](int x, int y) -> std::optional<float> {
+    return static_cast<float>(lit(x - 40, y - 40));
+  };
+  return Basin::share_sunlit(basin.floor_around(40, 40, lit_at), Basin::reflected(depth, 1.333));
 }
 
 TEST(Basin, ShadeCountsWhereTheSurfaceReflectsItsLightFrom) {

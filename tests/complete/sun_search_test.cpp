@@ -59,9 +59,6 @@ TEST(SunSearch, ThePlatesShadowsCountMore) {
   Shaded wall(6, 10);
   wall.buffers.fill(PlaneId::kSurfaceShadow, 1);
   EXPECT_NEAR(wall.shade(8), 0, 1e-6);
-  wall.buffers.frame.planes[index_of(PlaneId::kSurfaceShadow)] = {};
-  wall.buffers.fill(PlaneId::kShadow, 1);
-  EXPECT_NEAR(wall.shade(8), 0, 1e-6);
 }
 
 /// The sun is in the picture, and a post between it and the viewer shades only the water before it.

@@ -52,7 +52,18 @@ inline Picture run_as(CellNeeds kind, Plan plan, Frame frame, const Scene& scene
   plan.max_error = 0;
   const Rect window = frame.plane(PlaneId::kDepth).window;
   Buffers far(window);
+  Completer completer;
   if (kind.opaque) {
+    // Of the bottom as it is.
+    const Pass pass_before(scene, frame, plan.look.water.ior, plan.made);
+    const Frame whole = completer.complete(plan, frame, pass_before, *make_executor(1));
+    for (int i = 0; i < kPlaneCount; ++i) {
+      const PlaneId id = static_cast<PlaneId>(i);
+      const PlaneSet of_bottom = kAlbedoPlanes | PlaneSet{PlaneId::kBasin, PlaneId::kSurfaceShadow};
+      if (!(plan.completed & of_bottom).has(id)) continue;
+      frame.planes[index_of(id)] = whole.planes[index_of(id)];
+      plan.planes = plan.planes | PlaneSet{id};
+    }
     const View<const float>& depth = frame.plane(PlaneId::kDepth);
     const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
     const Pass pass(scene, frame, 1.333, {});

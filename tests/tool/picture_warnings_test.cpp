@@ -121,6 +121,28 @@ TEST(PictureWarnings, WavesOverTheCamera) {
   EXPECT_THAT(evening.warnings(), testing::Contains(HasSubstr("the waves reach 3")));
 }
 
+TEST(PictureWarnings, WavesOverALevelSurface) {
+  Evening evening;
+  evening.look.of<WaveNormals>().strength = 1;
+  evening.look.of<WaveNormals>().waves = {{0.1, 1, 0.5, 0, 0}};
+  const auto surface = [&](double raised) {
+    evening.buffers.set(PlaneId::kSurfaceDepth, [&](int x, int y) {
+      const Rays rays = rays_of(*evening.scene.camera, {kSize.width, kSize.height});
+      const double down = -rays.ray_at(x + 0.5, y + 0.5).y;
+      const double height = raised * std::sin(0.7 * x + 1.3 * y);
+      return down > 0 ? static_cast<float>((2 - height) / down) : test::kInf;
+    });
+  };
+  EXPECT_THAT(evening.warnings(), IsEmpty());
+  surface(0);
+  EXPECT_THAT(evening.warnings(), ElementsAre(HasSubstr("the surface_depth is level")));
+  surface(0.1);
+  EXPECT_THAT(evening.warnings(), IsEmpty());
+  surface(0);
+  evening.look.of<WaveNormals>().model = WaveNormals::Model::kFourMaps;
+  EXPECT_THAT(evening.warnings(), testing::Not(testing::Contains(HasSubstr("level"))));
+}
+
 TEST(PictureWarnings, WavesOfTheSceneBesideAMap) {
   Evening evening;
   const auto unread = testing::Contains(HasSubstr("the waves of the scene change nothing"));

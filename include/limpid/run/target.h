@@ -30,8 +30,9 @@ enum class Aov {
   kReflectionDepth,
   kReflectionValid,
   kSky,
+  kSurfaceShadow,
 };
-constexpr int kAovCount = 17;
+constexpr int kAovCount = 18;
 
 /// The way to combine several samples of a pixel.
 enum class Filter : std::uint8_t {
