@@ -114,7 +114,7 @@ void BottomAlbedo::look_for_walls(const Frame& frame, const Pass& c, const Water
   const Basin basin(frame, c);
   const double share = share_in_air(c);
   const View<const float>& shadow = frame.plane(PlaneId::kShadow);
-  const auto lit = [&](int at_x, int at_y) -> std::optional<float> {
+  const Basin::Lit lit = [&](int at_x, int at_y) -> std::optional<float> {
     if (!(shadow ? shadow.window : window).contains(Rect{at_x, at_y, at_x + 1, at_y + 1}))
       return {};
     if (shadow) return shadow.at(at_x, at_y);

@@ -55,7 +55,7 @@ class BottomAlbedo {
     kDrop = 12,
     kCount,
     kReach,
-    kLit  ///< no sum: lit fraction, without a shadow plane
+    kLit  ///< of a cell alone: its lit fraction, without a shadow plane
   };
   using Cell = std::array<float, 16>;
   void gather(const Frame& frame, const Pass& pass, const Rgb<double>& sky, int row);

@@ -32,7 +32,9 @@ struct DepthTap {
 Pixel<double> SunSight::pixel_at(int x, int y, double depth) const {
   Pixel<double> pixel{};
   const RowRays<double> rays(c_, y - c_.corner.y + 0.5);
-  begin_pixel<double>(c_, rays, x - c_.corner.x + 0.5, 1, depth, depth, pixel);
+  const double at = x - c_.corner.x + 0.5;
+  const double side = begins_in_water(c_, rays, at) > 0 ? -1 : 1;
+  begin_pixel<double>(c_, rays, at, side, depth, depth, pixel);
   return pixel;
 }
 

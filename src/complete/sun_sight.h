@@ -9,7 +9,7 @@ namespace limpid {
 /// Searches for surfaces of the dry picture that hide the sun.
 class SunSight {
  public:
-  /// Both must live as long, and the pass must have a sun.
+  /// Keeps references to both. The pass must have a sun.
   SunSight(const View<const float>& depth, const Pass& pass) : depth_(depth), c_(pass) {}
 
   /// How much of the sun surfaces above the water hide from a point of the water, 0 ... 1: that at

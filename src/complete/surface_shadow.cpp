@@ -13,15 +13,23 @@
 namespace limpid {
 namespace {
 
-constexpr int kCell = 4;                 ///< pixels between the corners of a cell
-constexpr int kBlock = 4;                ///< pixels of the shadow
-constexpr float kUneven = -1;            ///< in the place of a block's shadow
-constexpr int kRounds = 5;               ///< until the end of a sun's ray is found
-constexpr int kBetween = 2;              ///< places between the water and that end
-constexpr int kCoarse = 24, kFine = 48;  ///< steps of searches; edges of shadows are straight
-constexpr double kOneSurface = 0.9;      ///< quotient of depths of neighbours on one surface
-constexpr double kSame = 0.01;           ///< depths this much apart are those of one surface
-constexpr double kLowestSun = 1e-3;      ///< sine of its elevation
+/// Pixels between the corners of a cell of a picture up to 1.5 times as wide as kWide: twice as
+/// many of one up to 2.5 times as wide, and so on.
+constexpr int kCell = 4;
+constexpr double kWide = 1920;
+constexpr int kBlock = 4;            ///< pixels of the shadow
+constexpr float kUneven = -1;        ///< in the place of a block's shadow
+constexpr int kRounds = 5;           ///< until the end of a sun's ray is found
+constexpr int kBetween = 4;          ///< places between the water and that end
+constexpr int kSteps = 24;           ///< of a search
+constexpr double kOneSurface = 0.9;  ///< quotient of depths of neighbours on one surface
+constexpr double kSame = 0.01;       ///< depths this much apart are those of one surface
+constexpr double kLowestSun = 1e-3;  ///< sine of its elevation
+
+int cell_of(const Rect& window) {
+  const int longer = std::max(window.width(), window.height());
+  return kCell * std::max(1, static_cast<int>(std::lround(longer / kWide)));
+}
 
 /// Where the sun's rays end that pass the water.
 class Ends {
@@ -81,7 +89,7 @@ class Ends {
     there.at = {(from.x + along * back_u_) / w * c_.size.x + c_.corner.x,
                 (from.y + along * back_v_) / w * c_.size.y + c_.corner.y};
     const Rect& window = shown_;
-    there.shown = w > 0 && there.at.x >= window.x0 && there.at.x < window.x1 &&
+    there.shown = w > 0 && there.depth > 0 && there.at.x >= window.x0 && there.at.x < window.x1 &&
                   there.at.y >= window.y0 && there.at.y < window.y1;
     if (!there.shown) return there;
     there.seen = depth_at(there.at);
@@ -110,11 +118,15 @@ class Ends {
     }
     return quad;
   }
-  /// Between texels of one surface, where 1 / depth is linear; else that of the nearest.
+  /// Between texels of one surface, where 1 / depth is linear (in orthographic pictures, depth);
+  /// else that of the nearest.
   double depth_at(const glm::dvec2& at) const {
     const Quad quad = around(depth_, at);
     const auto [least, most] = std::minmax_element(quad.texels.begin(), quad.texels.end());
-    if (*least > kOneSurface * *most) return 1 / quad.mean([](double depth) { return 1 / depth; });
+    if (*least > kOneSurface * *most) {
+      if (c_.w_depth == 0) return quad.mean([](double depth) { return depth; });
+      return 1 / quad.mean([](double depth) { return 1 / depth; });
+    }
     return depth_.at(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)));
   }
   double lit_at(const glm::dvec2& at) const {
@@ -154,7 +166,7 @@ bool SurfaceShadow::is_even(const Rect& window, const std::array<const Node*, 4>
     if (corner->known < 1 || corner->lit != corners[0]->lit) return false;
     low = glm::min(low, corner->end), high = glm::max(high, corner->end);
   }
-  constexpr int kMost = 4;  // blocks; a cell whose rays end farther apart is looked at closely
+  constexpr int kMost = 16;  // blocks; a cell whose rays end farther apart is looked at closely
   const int left = (static_cast<int>(low.x) - 1 - window.x0) / kBlock,
             top = (static_cast<int>(low.y) - 1 - window.y0) / kBlock,
             right =
@@ -190,14 +202,15 @@ void SurfaceShadow::make(const Frame& frame, const Pass& pass, Executor& executo
   const Ends ends(frame, pass);
   const SunSight sight(depth, pass);
   find_even(shadow, executor);
-  const int columns = (window.width() + kCell - 1) / kCell,
-            rows = (window.height() + kCell - 1) / kCell;
+  const int cell = cell_of(window);
+  const int columns = (window.width() + cell - 1) / cell,
+            rows = (window.height() + cell - 1) / cell;
   nodes_.resize(static_cast<std::size_t>(columns + 1) * (rows + 1));
   each_row(executor, {0, 0, 1, rows + 1}, [&](int row) {
-    const int y = std::min(window.y0 + row * kCell, window.y1 - 1);
+    const int y = std::min(window.y0 + row * cell, window.y1 - 1);
     const RowHeights heights(pass, y);
     for (int column = 0; column <= columns; ++column) {
-      const int x = std::min(window.x0 + column * kCell, window.x1 - 1);
+      const int x = std::min(window.x0 + column * cell, window.x1 - 1);
       const double water = water_at(x, y, heights);
       Node& node = nodes_[static_cast<std::size_t>(row) * (columns + 1) + column];
       node = {1, 0, {}};
@@ -205,16 +218,21 @@ void SurfaceShadow::make(const Frame& frame, const Pass& pass, Executor& executo
       Ends::End end{1, 0, {}};
       if (water < depth.at(x, y)) end = ends.of(x, y, heights, water);
       if (end.known < 1) {
-        const double found = 1 - sight.hidden_from_water(x, y, water, kCoarse);
+        const double found = 1 - sight.hidden_from_water(x, y, water, kSteps);
         end.lit = std::lerp(found, end.lit, end.known);
       }
       node = {static_cast<float>(end.lit), static_cast<float>(end.known), end.at};
     }
   });
   each_row(executor, {0, 0, 1, rows}, [&](int row) {
-    const int top = window.y0 + row * kCell, bottom = std::min(top + kCell, window.y1);
+    const int top = window.y0 + row * cell, bottom = std::min(top + cell, window.y1);
+    const int high = std::max(std::min(top + cell, window.y1 - 1) - top, 1);  // between corners
+    std::vector<RowHeights> of_rows;
+    of_rows.reserve(static_cast<std::size_t>(cell));
+    for (int y = top; y < bottom; ++y) of_rows.emplace_back(pass, y);
     for (int column = 0; column < columns; ++column) {
-      const int left = window.x0 + column * kCell, right = std::min(left + kCell, window.x1);
+      const int left = window.x0 + column * cell, right = std::min(left + cell, window.x1);
+      const int wide = std::max(std::min(left + cell, window.x1 - 1) - left, 1);
       const Node* above = &nodes_[static_cast<std::size_t>(row) * (columns + 1) + column];
       const Node* below = above + columns + 1;
       if (is_even(shadow.window, {above, above + 1, below, below + 1})) {
@@ -225,23 +243,29 @@ void SurfaceShadow::make(const Frame& frame, const Pass& pass, Executor& executo
       const bool shown =
           std::max({above[0].known, above[1].known, below[0].known, below[1].known}) > 0;
       const float sum = above[0].lit + above[1].lit + below[0].lit + below[1].lit;
+      const bool edge = sum > 0 && sum < 4;
+      // At the edge of a shadow, a quarter of the cell shares a search.
+      std::array<double, 4> searched;
+      searched.fill(-1);
+      const auto search = [&](int x, int y, double water) {
+        const int part = (y - top) / (cell / 2) * 2 + (x - left) / (cell / 2);
+        double& found = searched[static_cast<std::size_t>(part)];
+        if (found < 0) found = 1 - sight.hidden_from_water(x, y, water, kSteps);
+        return found;
+      };
       for (int y = top; y < bottom; ++y) {
-        const RowHeights heights(pass, y);
-        const float v = static_cast<float>(y - top) / kCell;
+        const RowHeights& heights = of_rows[static_cast<std::size_t>(y - top)];
+        const float v = static_cast<float>(y - top) / static_cast<float>(high);
         for (int x = left; x < right; ++x) {
-          const float u = static_cast<float>(x - left) / kCell;
+          const float u = static_cast<float>(x - left) / static_cast<float>(wide);
           const float between = std::lerp(std::lerp(above[0].lit, above[1].lit, u),
                                           std::lerp(below[0].lit, below[1].lit, u), v);
-          const double water = water_at(x, y, heights);
+          const double water = shown || edge ? water_at(x, y, heights) : HUGE_VAL;
           float& to = lit.at(x, y);
           to = between;
-          if (!(water < depth.at(x, y)) || (!shown && (sum <= 0 || sum >= 4))) continue;
+          if (!(water < depth.at(x, y))) continue;
           const Ends::End end = shown ? ends.of(x, y, heights, water) : Ends::End{1, 0, {}};
-          double found = between;
-          // At the edge of a shadow.
-          if (end.known < 1 && sum > 0 && sum < 4) {
-            found = 1 - sight.hidden_from_water(x, y, water, kFine);
-          }
+          const double found = end.known < 1 && edge ? search(x, y, water) : between;
           to = static_cast<float>(std::lerp(found, end.lit, end.known));
         }
       }

@@ -13,14 +13,18 @@
 namespace limpid {
 
 /// The sun's shadows on the water, from those on the surfaces of the dry picture: where the sun's
-/// ray through a place of the water ends, unrefracted, the dry picture shows the same shadow.
-/// Where the picture does not show that end, or something is seen between the two, it is searched
-/// whether the picture shows a surface between the water and the sun (SunSight), every few pixels.
+/// ray through a point of the water ends, unrefracted, the dry picture shows the same shadow. Where
+/// the picture does not show that end, or shows a surface in front of one of four points between,
+/// a search tells whether the picture shows a surface between the water and the sun (SunSight).
+///
+/// Works in cells of four pixels, of eight in 4K, and by pixels where a cell's corners end in an
+/// uneven shadow. Searches are made at the corners of cells and, at the edges of shadows, for
+/// quarters of cells: of objects narrower than a cell, shadows that are searched may be lost.
 class SurfaceShadow {
  public:
-  /// From depth, shadow and, if present, surface_depth; without it the water is calm. Needs a sun
-  /// above the horizon: else, and where a pixel shows no water plane, 1. The same for any number of
-  /// threads.
+  /// From depth, shadow and, if present, surface_depth; without surface_depth the water is calm. 1
+  /// without a sun above the horizon, and on pixels whose rays do not meet the water. In the window
+  /// of depth. The same for any number of threads.
   void make(const Frame& frame, const Pass& pass, Executor& executor);
 
   const Plane& plane() const { return plane_; }

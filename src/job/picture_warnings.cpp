@@ -162,6 +162,7 @@ void warn_of_glint(const Plan& plan, const Frame& frame, const Pass& c,
   const SunHighlight::Params& glint = plan.look.of<SunHighlight>();
   const bool searches = glint.model == SunHighlight::Model::kSlopes && glint.strength != 0;
   if (!plan.keeps<SunHighlight>() || !searches || frame.plane(PlaneId::kSurfaceShadow)) return;
+  if (plan.completed.has(PlaneId::kSurfaceShadow)) return;
   constexpr double kLow = 20 * std::numbers::pi / 180;
   const double rise = std::asin(std::clamp(glm::dot(c.sun.direction, c.up), -1.0, 1.0));
   if (!(rise > 0 && rise < kLow)) return;
@@ -223,23 +224,25 @@ void warn_of_level_surface(const Plan& plan, const Frame& frame, const Pass& c,
   const View<const float>& surface = frame.plane(PlaneId::kSurfaceDepth);
   if (waves.model != WaveNormals::Model::kSines || !plan.made.has(StatePart::kNormal)) return;
   if (!surface || !plan.planes.has(PlaneId::kSurfaceDepth)) return;
-  double crest = 0, highest = 0;
+  double crest = 0;
   for (const SineWave& wave : waves.waves.empty() ? c.waves : waves.waves) {
     crest = std::max(crest, waves.strength * std::abs(wave.amplitude));
   }
   const Rect work = frame.work();
   const int step = std::clamp(std::min(work.width(), work.height()) / 64, 1, kCoarse);
-  bool seen = false;
+  std::vector<double> seen;
   for (int y = work.y0; y < work.y1; y += step) {
     const RowHeights heights(c, y);
     for (int x = work.x0; x < work.x1; x += step) {
       const double depth = surface.at(x, y);
-      if (!(depth > 0 && depth < 1e30)) continue;
-      seen = true;
-      highest = std::max(highest, std::abs(heights.at(x, depth)));
+      if (depth > 0 && depth < 1e30) seen.push_back(heights.at(x, depth));
     }
   }
-  if (!seen || highest > 0.25 * crest) return;
+  if (seen.empty() || crest == 0) return;
+  // Far depths are rounded to heights that are no waves.
+  std::sort(seen.begin(), seen.end());
+  const double spread = seen[seen.size() * 3 / 4] - seen[seen.size() / 4];
+  if (spread > 0.25 * crest) return;
   warnings.emplace_back(
       "the surface_depth is level: the waves tilt the water, but do not raise it; expected a "
       "surface_depth with the waves, or none (--layer surface_depth=none)");

@@ -77,8 +77,10 @@ struct MovedSunlight : Caustics {
       const F off = abs(min(seen, F(1e30)) - own);
       const F shown = saturate(F(1.5) - F(2) * off / max(moved_by, F(1e-6)));
       const auto none = nothing(seen);
-      const auto covered = given<F>(c.caustics->under_land, "caustics.under_land") > F(0) &&
-                           tap.nearest(PlaneId::kDepth, shift) < F(kSameDepth) * own;
+      const auto under_land = given<F>(c.caustics->under_land, "caustics.under_land") > F(0);
+      F dry_there(HUGE_VAL);
+      if_any(under_land, [&] { dry_there = tap.nearest(PlaneId::kDepth, shift); });
+      const auto covered = under_land && dry_there < F(kSameDepth) * own;
       F land = select(none, F(1), F(0));
       const auto asks = (none || covered) && land_counts;
       if_any(asks,

@@ -45,7 +45,7 @@ struct Kernel<WaterShadow> : WaterShadow {
   static constexpr CellKind kSkipped{"lit", "no shadow falls on the water"};
   static double ns(const Params& p, const Running& running) {
     if (p.model == Model::kDarken) return 1.2;
-    const bool entries = running.planes.has(PlaneId::kSurfaceShadow);
+    const bool entries = (running.planes | running.completed).has(PlaneId::kSurfaceShadow);
     const double search = p.strength > 0 ? 25 : 0;
     const double looks = entries ? 21.6 : running.planes.has(PlaneId::kShadow) ? 1.6 : search;
     return looks + (wants_shafts(p) ? 24.4 : 0);

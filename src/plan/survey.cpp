@@ -355,9 +355,12 @@ void Survey::Scan::decide_cell(int index, const Extremes& reached) {
   if (wanted.has(PlaneId::kShadow)) ranges.shadow = range(kShadowLow, kShadowHigh);
   if (!frame.plane(own_shadow)) ranges.own_shadow = {1, 1};
   if (sees_own_shadow()) ranges.own_shadow = {own.shadow_low, own.shadow_high};
-  ranges.shadow_of_water = own_shadow == PlaneId::kSurfaceShadow && sees_own_shadow()
-                               ? shadow_of_water
-                               : ranges.own_shadow;
+  ranges.shadow_of_water = ranges.own_shadow;
+  if (own_shadow == PlaneId::kSurfaceShadow && sees_own_shadow()) {
+    // Overscan is not scanned.
+    const bool whole = survey.work_.contains(frame.plane(own_shadow).window);
+    ranges.shadow_of_water = whole ? shadow_of_water : Range{0, 1};
+  }
   for (int c = 0; c < 3 && plan.max_error > 0; ++c) {
     ranges.color[static_cast<std::size_t>(c)] = range(kColorLow + c, kColorHigh + c);
   }

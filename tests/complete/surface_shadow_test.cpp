@@ -5,6 +5,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "complete/sun_sight.h"
 #include "support.h"
 
 // The sun's shadows on the water, from those of the dry picture.
@@ -154,6 +155,83 @@ TEST(SurfaceShadow, IsSearchedWhereNoEndIsSeen) {
   }
   EXPECT_GT(lit, 10);
   EXPECT_GT(shaded, 5);
+}
+
+/// Also in the margin of the depth, and after a frame of another size.
+TEST(SurfaceShadow, IsInTheWindowOfTheDepth) {
+  Pond pond;
+  pond.shade([](double, double) { return 1.0; });
+  SurfaceShadow shadow;
+  pond.made(shadow);
+  const Rect wide{-8, -4, kSize.width + 6, kSize.height + 2};
+  test::Buffers margin(wide);
+  margin.set(PlaneId::kDepth,
+             [&](int x, int y) { return static_cast<float>(pond.depth_of(x, y, -kDeep)); });
+  margin.set(PlaneId::kShadow,
+             [&](int x, int y) { return pond.point(x, y, -kDeep).x > -0.3 ? 1.0f : 0.0f; });
+  margin.frame.display = rect_of(kSize);
+  const Pass pass(pond.scene, margin.frame, 1.333, {});
+  shadow.make(margin.frame, pass, *make_executor(1));
+  const View<const float> got = shadow.plane().view();
+  ASSERT_EQ(got.window, wide);
+  int known = 0;
+  for (int y = wide.y0; y < wide.y1; ++y) {
+    for (int x = wide.x0; x < wide.x1; ++x) {
+      const glm::dvec3 end = pond.end(x, y);
+      if (!pond.shows(end) || std::abs(end.x + 0.3) < 0.1) continue;
+      EXPECT_EQ(got.at(x, y), end.x > -0.3 ? 1 : 0) << x << ", " << y;
+      ++known;
+    }
+  }
+  EXPECT_GT(known, kSize.width * kSize.height / 3);
+}
+
+TEST(SurfaceShadow, LiesOnTheSurfaceOfThePlate) {
+  Pond pond;
+  constexpr double kRaised = 0.4;
+  pond.buffers.set(PlaneId::kSurfaceDepth,
+                   [&](int x, int y) { return static_cast<float>(pond.depth_of(x, y, kRaised)); });
+  const auto lit = [](double x, double z) { return 0.5 + 0.5 * std::sin(2 * x) * std::cos(2 * z); };
+  pond.shade(lit);
+  SurfaceShadow shadow;
+  const View<const float> got = pond.made(shadow);
+  int known = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const glm::dvec3 end =
+          pond.point(x, y, kRaised) - ((kDeep + kRaised) / pond.to_sun.y) * pond.to_sun;
+      if (!pond.shows(end)) continue;
+      EXPECT_NEAR(got.at(x, y), lit(end.x, end.z), 0.02) << x << ", " << y;
+      ++known;
+    }
+  }
+  EXPECT_GT(known, kSize.width * kSize.height / 3);
+}
+
+/// The bottom behind a wall, as its albedo needs it.
+TEST(SunSight, TellsTheShadeOfSurfaces) {
+  Pond pond;
+  pond.to_sun = glm::normalize(glm::dvec3(0, 1, -1));
+  pond.scene.sun->direction = pond.to_sun;
+  constexpr double kWall = -4, kHigh = 0.7;
+  pond.show([&](int x, int y) {
+    const glm::dvec3 ray = pond.ray(x, y);
+    const double wall = ray.z < 0 ? kWall / ray.z : HUGE_VAL;
+    const double dry = std::min(wall, pond.depth_of(x, y, -kDeep));
+    return kEye + wall * ray.y < kHigh ? dry : HUGE_VAL;
+  });
+  const Pass pass(pond.scene, pond.buffers.frame, 1.333, {});
+  const SunSight sight(pond.buffers.frame.plane(PlaneId::kDepth), pass);
+  int lit = 0, shaded = 0;
+  for (int y = 0; y < kSize.height; ++y) {
+    const glm::dvec3 bottom = pond.point(kSize.width / 2, y, -kDeep);
+    const double away = bottom.z - kWall, shade = kHigh + kDeep;
+    if (away < 0.2 || std::abs(away - shade) < 0.15) continue;
+    EXPECT_EQ(sight.hidden_from_surface(kSize.width / 2, y), away < shade ? 1 : 0) << away;
+    (away > shade ? lit : shaded) += 1;
+  }
+  EXPECT_GT(lit, 10);
+  EXPECT_GT(shaded, 10);
 }
 
 TEST(SurfaceShadow, IsNoneWithoutASunOverTheHorizon) {

@@ -75,6 +75,19 @@ TEST(Caustics, MoveShadowsThatNoSurfaceTells) {
   }
 }
 
+// A deck over the water from column 12 on, without a surface that ends there: the calm water under
+// it gets no light, whatever the shadow on that water says.
+TEST(Caustics, LetNoLightInUnderLand) {
+  Tray tray = under_a_board();
+  light(tray, [](int x, int) { return x < 7 || x > 11 ? 1.0f : 0.0f; });
+  tray.buffers.frame.planes[index_of(PlaneId::kSurfaceDepth)] = {};
+  tray.buffers.set(PlaneId::kDepth, [](int x, int) { return x < 12 ? 14.0f : 9.0f; });
+  tray.buffers.fill(PlaneId::kSurfaceShadow, 1);
+  const test::Picture wet = tray.wet();
+  for (const int x : {3, 7}) EXPECT_NEAR(wet.color(x, 2).r, 0.5, 1e-3) << x;
+  for (const int x : {10, 11}) EXPECT_NEAR(wet.color(x, 2).r, 0.2, 1e-3) << x;
+}
+
 // Without sun_color, too. The light of the sun, 1.5 times that of the sky, is told by the scene, or
 // by the edges of the shadow if it has enough of them.
 TEST(Caustics, MoveShadowsOfASunThatIsEstimated) {

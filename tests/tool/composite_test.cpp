@@ -95,7 +95,8 @@ TEST_F(CompositeTest, AllAovsAreThereInTheirTypes) {
           "reflected.G (half), reflected.B (half), reflection_depth.Z (float), reflection_valid.Y "
           "(half), sky.R (half), sky.G (half), sky.B (half), stmap.b.U (float), stmap.b.V (float), "
           "stmap.g.U (float), stmap.g.V (float), stmap.r.U (float), stmap.r.V (float), "
-          "surface_depth.Z (float), transmittance.R (half), transmittance.G (half), "
+          "surface_depth.Z (float), surface_shadow.Y (half), transmittance.R (half), "
+          "transmittance.G (half), "
           "transmittance.B (half), transmitted.R (half), transmitted.G (half), transmitted.B "
           "(half)\n"));
   composed("two.exr", {"--aov", "path,fresnel"});

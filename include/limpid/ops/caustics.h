@@ -23,17 +23,18 @@ namespace limpid {
 /// slope comes from the depth, unless all eye depths have half precision, which is too coarse.
 /// Shadows move to their refracted positions, in frames with shadow: the unrefracted shadow is
 /// removed, by an estimate of the sun's light from the bottom's other light and from sunlit bottom
-/// nearby, and the shadow on the surface at the entry point of calm water is applied. Without
-/// surface_shadow, and where the picture does not show that entry point (beyond its edge, or behind
+/// nearby, and the shadow on the surface at the entry point of calm water is applied: the plate's
+/// surface_shadow, or one that a completer makes of shadow and depth. On a host's device, which has
+/// neither, and where the picture does not show that entry point (beyond its edge, or behind
 /// a wave, an object or the rim of a basin), the shadow is that on the bottom where unrefracted
 /// light through the entry point falls, if the picture shows the bottom there at the same depth; no
 /// bottom hidden by objects has shadows then. Where the surface tells, shadows of objects below it
 /// stay: they are the shadow on the bottom divided by the shadow on the surface along the
 /// unrefracted ray. Where neither tells, and towards the picture's edge, the moved shadows
-/// fade into the unrefracted ones. On land, where surface_depth shows no water, no light enters.
-/// Of bottom that only the layer below shows, the shadow removed is the one on the surface at the
-/// entry point of the unrefracted ray. Bottom that refraction filled in behind an object is all in
-/// the sun before.
+/// fade into the unrefracted ones. On land, where surface_depth shows no water, and under land,
+/// where a calm or a completed surface goes on, no light enters. Of bottom that only the layer
+/// below shows, the shadow removed is the one on the surface at the entry point of the unrefracted
+/// ray. Bottom that refraction filled in behind an object is all in the sun before.
 ///
 /// Acts on bottom that is seen from the air, from within the water, and from there as the mirror
 /// image in the surface if the frame has a reflection with a depth; light on the mirror image is

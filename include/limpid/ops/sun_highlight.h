@@ -7,9 +7,9 @@
 namespace limpid {
 
 /// Adds the glint of the sun on the surface, times strength and the sun's visibility. It may exceed
-/// 1, and is 0 for views from under water. The visibility is the plane surface_shadow, else the
-/// plane shadow at this pixel; without both the surface counts as lit. Facets that face away from
-/// the sun do not glint.
+/// 1, and is 0 for views from under water. The visibility is the plane surface_shadow, of
+/// the plate or completed for caustics or water_shadow, else the plane shadow at this pixel;
+/// without both the surface counts as lit. Facets that face away from the sun do not glint.
 ///
 /// lobe^power * sun color: `phong` measures the lobe from the mirrored light, `blinn_phong`
 /// ("Realistic Water", power 200) from the half vector. Not physical: wide lobes are as bright as

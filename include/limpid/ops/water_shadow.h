@@ -18,7 +18,8 @@ namespace limpid {
 /// bottom, for that fell on the bottom around, whose shade is in the plane `basin`. Clear water
 /// shows no shadow of its own; the shadow of the bottom is already in the dry picture.
 ///
-/// If the frame has a shadow on the surface, it is looked up at the entry points of the sunlight
+/// If the frame has a shadow on the surface, its own or one that a completer makes of shadow and
+/// depth, it is looked up at the entry points of the sunlight
 /// that is scattered along the path to the viewer: at four points, each for an equal part of the
 /// light, on the line in the calm surface from the pixel to the entry point for the path's end.
 /// v_near and v_far are means of these, weighted by their distances from the line's two ends;
