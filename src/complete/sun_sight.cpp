@@ -38,8 +38,8 @@ Pixel<double> SunSight::pixel_at(int x, int y, double depth) const {
   return pixel;
 }
 
-double SunSight::hidden_from_water(int x, int y, double depth, int steps) const {
-  return sun_hidden<double>(c_, pixel_at(x, y, depth), DepthTap{depth_, c_, x, y}, true, steps);
+double SunSight::hidden_from_water(int x, int y, double depth) const {
+  return sun_hidden<double>(c_, pixel_at(x, y, depth), DepthTap{depth_, c_, x, y}, true);
 }
 
 double SunSight::hidden_from_surface(int x, int y) const {

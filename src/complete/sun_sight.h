@@ -14,7 +14,7 @@ class SunSight {
 
   /// How much of the sun surfaces above the water hide from a point of the water, 0 ... 1: that at
   /// an eye depth on a pixel's ray.
-  double hidden_from_water(int x, int y, double depth, int steps) const;
+  double hidden_from_water(int x, int y, double depth) const;
   /// How much of the sun all surfaces hide from a point of the dry picture, 0 or 1: that which a
   /// pixel shows.
   double hidden_from_surface(int x, int y) const;

@@ -21,7 +21,6 @@ constexpr int kBlock = 4;            ///< pixels of the shadow
 constexpr float kUneven = -1;        ///< in the place of a block's shadow
 constexpr int kRounds = 5;           ///< until the end of a sun's ray is found
 constexpr int kBetween = 4;          ///< places between the water and that end
-constexpr int kSteps = 24;           ///< of a search
 constexpr double kOneSurface = 0.9;  ///< quotient of depths of neighbours on one surface
 constexpr double kSame = 0.01;       ///< depths this much apart are those of one surface
 constexpr double kLowestSun = 1e-3;  ///< sine of its elevation
@@ -218,7 +217,7 @@ void SurfaceShadow::make(const Frame& frame, const Pass& pass, Executor& executo
       Ends::End end{1, 0, {}};
       if (water < depth.at(x, y)) end = ends.of(x, y, heights, water);
       if (end.known < 1) {
-        const double found = 1 - sight.hidden_from_water(x, y, water, kSteps);
+        const double found = 1 - sight.hidden_from_water(x, y, water);
         end.lit = std::lerp(found, end.lit, end.known);
       }
       node = {static_cast<float>(end.lit), static_cast<float>(end.known), end.at};
@@ -250,7 +249,7 @@ void SurfaceShadow::make(const Frame& frame, const Pass& pass, Executor& executo
       const auto search = [&](int x, int y, double water) {
         const int part = (y - top) / (cell / 2) * 2 + (x - left) / (cell / 2);
         double& found = searched[static_cast<std::size_t>(part)];
-        if (found < 0) found = 1 - sight.hidden_from_water(x, y, water, kSteps);
+        if (found < 0) found = 1 - sight.hidden_from_water(x, y, water);
         return found;
       };
       for (int y = top; y < bottom; ++y) {

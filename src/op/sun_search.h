@@ -26,12 +26,12 @@ F sun_met(const Pass& c, const Pixel<F>& p, const Tap& tap, const Mask& lanes,
 /// the viewer, the surface at that edge goes on beyond it: wholly as high as the picture shows it,
 /// and less and less up to three times as high.
 template <class F, class Tap, class Mask>
-F sun_hidden(const Pass& c, const Pixel<F>& p, const Tap& tap, const Mask& lanes, int steps = 24) {
-  const MirrorSteps how{steps, 0.2, 0.2, true};
+F sun_hidden(const Pass& c, const Pixel<F>& p, const Tap& tap, const Mask& lanes) {
+  constexpr MirrorSteps kSteps{24, 0.2, 0.2, true};
   constexpr double kEnds = 3;
   const Vec3<F> to_sun = vec3_of<F>(c.sun.direction);
   const ScreenRay<F> ray(c, p, to_sun);
-  F hidden = sun_met(c, p, tap, lanes, ray, how);
+  F hidden = sun_met(c, p, tap, lanes, ray, kSteps);
   const F end = ray.s_at(reach_ahead(c, c.dry, p.uv, ray.across));
   const auto leaves = lanes && hidden < F(0.5) && ray.depth_step > F(0) && end < F(1e20);
   if_any(leaves, [&] {
